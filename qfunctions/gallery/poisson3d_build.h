@@ -1,0 +1,23 @@
+/// @file
+/// Gallery Poisson3DBuild: K = w adj(J) adj(J)ᵀ / det J packed as (00, 11, 22, 12, 02, 01), the stored data of a
+/// Poisson operator in 3D.
+///
+/// in[0] gradient of the coordinates (9), in[1] quadrature weight (1); out[0] K (6).
+#pragma once
+
+#include "../common/jacobian.h"
+
+CEED_QFUNCTION(Poisson3DBuild)
+(void *ctx, const CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+  const CeedScalar *dx = in[0], *w = in[1];
+  CeedScalar *qdata = out[0];
+
+  (void)ctx;
+  CeedPragmaSIMD for (CeedInt q = 0; q < Q; q++) {
+    CeedScalar A[3][3];
+    const CeedScalar detJ = JacobianAdjugate3D(Q, q, dx, A);
+
+    StoreScaledGram3D(Q, q, w[q] / detJ, A, qdata);
+  }
+  return CEED_ERROR_SUCCESS;
+}
