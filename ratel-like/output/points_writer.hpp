@@ -1,0 +1,46 @@
+#pragma once
+#include <petscsys.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "../swarm/swarm.hpp"
+
+namespace hg {
+
+/// A field computed outside the swarm to write with the points: n × components, storage order.
+/// Components 1, 3, 6 (xx yy zz yz xz xy, written as a full tensor) or 9.
+struct ExtraPointField {
+  std::string name;
+  PetscInt components = 1;
+  std::span<const double> values;
+};
+
+/// Time series of points for ParaView: `<prefix>-NNNNNN.h5` for each output (parallel HDF5, one file for all ranks) and
+/// `<prefix>.xdmf`, a temporal collection that is complete and readable after every write.
+///
+/// Always written: x, displacement (u), velocity (v), volume (V), J (det F), region, id; plus the extra fields, such as
+/// the Cauchy stress. Datasets lie in rank order, storage order within a rank.
+class PointsWriter {
+ public:
+  /// Nothing is written yet. A directory in the prefix must exist.
+  PetscErrorCode open(MPI_Comm comm, std::string prefix);
+  /// After a restart: keep the outputs of an earlier run that are listed in <prefix>.xdmf with step <= last_step.
+  PetscErrorCode resume(PetscInt last_step);
+  /// Collective. Failure to write (full disk, no permission) is an error naming the file and the cause.
+  PetscErrorCode write(PetscInt step, PetscReal time, const Swarm &swarm, std::span<const ExtraPointField> extra = {});
+
+ private:
+  struct Entry {
+    PetscInt step;
+    PetscReal time;
+    PetscInt num_points;
+    std::vector<std::pair<std::string, PetscInt>> extra;
+  };
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  std::string prefix_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace hg

@@ -1,0 +1,119 @@
+#pragma once
+#include <petscdmswarm.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "cell_grid.hpp"
+#include "locate.hpp"
+
+namespace hg {
+
+/// Names of the fields every point carries. Vectors have 3 components, tensors 9, row-major F[3 i + J].
+namespace field {
+inline constexpr const char *x = "x";                ///< double 3: position, m
+inline constexpr const char *X0 = "X0";              ///< double 3: position when seeded, m
+inline constexpr const char *u = "u";                ///< double 3: displacement since seeding, m
+inline constexpr const char *v = "v";                ///< double 3: velocity, m/s
+inline constexpr const char *F = "F";                ///< double 9: deformation gradient since seeding
+inline constexpr const char *V = "V";                ///< double 1: current volume, m³
+inline constexpr const char *V0 = "V0";              ///< double 1: volume when seeded, m³
+inline constexpr const char *rho0 = "rho0";          ///< double 1: density when seeded, kg/m³; mass = rho0 V0
+inline constexpr const char *material = "material";  ///< double 2: bulk modulus K, shear modulus μ, Pa
+inline constexpr const char *x_ref = "x_ref";        ///< double 3: reference coordinate ξ in the cell, [-1, 1]³
+inline constexpr const char *region = "region";      ///< int32: index of the region
+inline constexpr const char *id = "id";              ///< int64: cell_id × points per cell + k; unique, partition-free
+inline constexpr const char *cell = "cell";          ///< int32: local cell that owns the point
+}  // namespace field
+
+/// How points are placed in the reference cell: centres of an n × n × n subdivision with equal weights, Gauss-Legendre
+/// n × n × n with V = w det J, or pseudo-random with equal weights. Equal weights: V = cell volume / N.
+enum class PointPlacement { kUniform, kGauss, kCellRandom };
+
+/// What becomes of a point that leaves the domain: an error, moved back to the nearest point of the nearest cell
+/// (u keeps x = X0 + u), or removed with its mass, which is reported and taken off the mass that must be conserved.
+enum class OutsidePolicy { kError, kProject, kRemove };
+
+struct SwarmOptions {
+  PetscInt points_per_cell = 8;                         ///< -mpm_num_points_per_cell (a cube but for cell_random)
+  PointPlacement placement = PointPlacement::kUniform;  ///< -mpm_point_location_type uniform|gauss|cell_random
+  PetscInt seed = 42;                                   ///< -mpm_seed, for cell_random
+  OutsidePolicy outside = OutsidePolicy::kError;        ///< -mpm_point_outside error|project|remove
+};
+
+/// Reads and checks the options above; a bad value is an error that names option, value and expectation.
+PetscErrorCode swarm_options_from_petsc(MPI_Comm comm, SwarmOptions &options);
+
+/// What seeding asks of its caller for each point.
+struct PointMaterial {
+  std::int32_t region = 0;  ///< negative: no point here
+  double rho0 = 0.0;        ///< kg/m³
+  double K = 0.0;           ///< Pa
+  double mu = 0.0;          ///< Pa
+};
+/// cell: local cell; x: position of the point.
+using PointMaterialFn = std::function<PointMaterial(std::int32_t cell, const double x[3])>;
+
+/// Material points of this rank: a DMSWARM_BASIC with the fields above, storage order = DMSwarm's order.
+/// Movable, not copyable; destroys its DM. One instance lives for the whole run.
+class Swarm {
+ public:
+  Swarm() = default;
+  ~Swarm();
+  Swarm(Swarm &&other) noexcept;
+  Swarm &operator=(Swarm &&other) noexcept;
+
+  /// An empty swarm with every field registered. Collective on comm.
+  PetscErrorCode create(MPI_Comm comm);
+
+  DM dm() const { return dm_; }
+  MPI_Comm comm() const;
+  /// Points on this rank; on all ranks (collective).
+  PetscErrorCode local_size(PetscInt &n) const;
+  PetscErrorCode global_size(PetscInt &n) const;
+  PetscErrorCode resize(PetscInt n);
+
+  /// Σ rho0 V0 over all ranks, kg, independent of how points are spread (to rounding). Collective.
+  PetscErrorCode total_mass(double &mass) const;
+
+ private:
+  DM dm_ = nullptr;
+};
+
+/// Scoped access to one field of a swarm as a span in storage order, n × components. The swarm may not be resized or
+/// migrated meanwhile. T must match the field's type; a wrong name or size aborts with PETSc's error.
+template <class T>
+class PointField {
+ public:
+  PointField(const Swarm &swarm, const char *name) : PointField(swarm.dm(), name) {}
+  PointField(DM dm, const char *name);
+  ~PointField();
+  PointField(const PointField &) = delete;
+  PointField &operator=(const PointField &) = delete;
+
+  std::span<T> span() const { return {data_, size_}; }
+  T *data() const { return data_; }
+  std::size_t size() const { return size_; }  ///< n × components
+  PetscInt components() const { return components_; }
+  T &operator[](std::size_t i) const { return data_[i]; }
+
+ private:
+  DM dm_;
+  const char *name_;
+  T *data_ = nullptr;
+  std::size_t size_ = 0;
+  PetscInt components_ = 1;
+};
+extern template class PointField<double>;
+extern template class PointField<std::int32_t>;
+extern template class PointField<std::int64_t>;
+
+/// Fills an empty swarm: for each cell of the grid, points where `material` wants them; F = I, u = v = 0, x = X0.
+/// Collective (only for its checks); each rank seeds its own cells, and ids, places and random numbers depend on the
+/// cell's global number alone, so every partition seeds the same points.
+PetscErrorCode seed_swarm(const SwarmOptions &options, const CellGrid &grid, const HexLocator &locator,
+                          const PointMaterialFn &material, Swarm &swarm);
+
+}  // namespace hg
