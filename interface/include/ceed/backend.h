@@ -1,0 +1,208 @@
+/// @file
+/// What backends, and programs that look deeper, may ask of objects. Handles returned by Get are counted unless said
+/// otherwise.
+#ifndef CEED_BACKEND_H
+#define CEED_BACKEND_H
+
+#include <ceed.h>
+#include <limits.h>
+
+#define CEED_UNUSED __attribute__((unused))
+#define CEED_MAX_RESOURCE_LEN 1024
+#define CEED_MAX_BACKEND_PRIORITY UINT_MAX
+/// Alignment in bytes of arrays that the library allocates.
+#define CEED_ALIGN 64
+
+/// Returns from the calling function if the call failed.
+#define CeedCall(...)          \
+  do {                         \
+    int ierr_ = __VA_ARGS__;   \
+    if (ierr_) return ierr_;   \
+  } while (0)
+/// The same in a backend: whatever fails there leaves the object unusable.
+#define CeedCallBackend(...)                                                 \
+  do {                                                                       \
+    int ierr_ = __VA_ARGS__;                                                 \
+    if (ierr_) return ierr_ > CEED_ERROR_SUCCESS ? CEED_ERROR_BACKEND : ierr_; \
+  } while (0)
+/// Reports an error and returns it from the calling function unless `cond` holds.
+#define CeedCheck(cond, ceed, ecode, ...)                        \
+  do {                                                           \
+    if (!(cond)) return CeedError(ceed, ecode, __VA_ARGS__);     \
+  } while (0)
+
+/// @name Ceed
+/// @{
+/// Whether CEED_DEBUG is set in the environment.
+CEED_EXTERN int CeedIsDebug(Ceed ceed, bool *is_debug);
+/// Pointer of the backend, set by its init.
+CEED_EXTERN int CeedGetData(Ceed ceed, void *data);
+CEED_EXTERN int CeedSetData(Ceed ceed, void *data);
+CEED_EXTERN int CeedReference(Ceed ceed);
+CEED_EXTERN int CeedSetDeterministic(Ceed ceed, bool is_deterministic);
+/// Directories given by CeedAddJitSourceRoot(); the caller frees the list, not its strings, with Restore.
+CEED_EXTERN int CeedGetJitSourceRoots(Ceed ceed, CeedInt *num_source_roots, const char ***jit_source_roots);
+CEED_EXTERN int CeedRestoreJitSourceRoots(Ceed ceed, const char ***jit_source_roots);
+CEED_EXTERN int CeedGetJitDefines(Ceed ceed, CeedInt *num_defines, const char ***jit_defines);
+CEED_EXTERN int CeedRestoreJitDefines(Ceed ceed, const char ***jit_defines);
+/// @}
+
+/// @name Vectors
+/// @{
+CEED_EXTERN int CeedVectorHasValidArray(CeedVector vec, bool *has_valid_array);
+CEED_EXTERN int CeedVectorHasBorrowedArrayOfType(CeedVector vec, CeedMemType mem_type,
+                                                 bool *has_borrowed_array_of_type);
+/// Changes whenever the values may have changed; odd while there is a writer.
+CEED_EXTERN int CeedVectorGetState(CeedVector vec, uint64_t *state);
+CEED_EXTERN int CeedVectorGetData(CeedVector vec, void *data);
+CEED_EXTERN int CeedVectorSetData(CeedVector vec, void *data);
+CEED_EXTERN int CeedVectorReference(CeedVector vec);
+/// @}
+
+/// Kind of a restriction.
+typedef enum {
+  CEED_RESTRICTION_STANDARD = 1,
+  CEED_RESTRICTION_ORIENTED = 2,
+  CEED_RESTRICTION_CURL_ORIENTED = 3,
+  CEED_RESTRICTION_STRIDED = 4,
+  CEED_RESTRICTION_POINTS = 5,
+} CeedRestrictionType;
+
+/// @name Restrictions
+/// @{
+CEED_EXTERN int CeedElemRestrictionGetType(CeedElemRestriction rstr, CeedRestrictionType *rstr_type);
+CEED_EXTERN int CeedElemRestrictionIsStrided(CeedElemRestriction rstr, bool *is_strided);
+CEED_EXTERN int CeedElemRestrictionIsAtPoints(CeedElemRestriction rstr, bool *is_points);
+/// Whether both have the same points in the same elements.
+CEED_EXTERN int CeedElemRestrictionAtPointsAreCompatible(CeedElemRestriction rstr_a, CeedElemRestriction rstr_b,
+                                                         bool *are_compatible);
+/// Strides (node, component, element); backend strides are given as the numbers they stand for.
+CEED_EXTERN int CeedElemRestrictionGetStrides(CeedElemRestriction rstr, CeedInt strides[3]);
+CEED_EXTERN int CeedElemRestrictionHasBackendStrides(CeedElemRestriction rstr, bool *has_backend_strides);
+/// Read access to the offsets; destroying the restriction before Restore is an error.
+CEED_EXTERN int CeedElemRestrictionGetOffsets(CeedElemRestriction rstr, CeedMemType mem_type, const CeedInt **offsets);
+CEED_EXTERN int CeedElemRestrictionRestoreOffsets(CeedElemRestriction rstr, const CeedInt **offsets);
+/// Layout (node, component, element) of the L-vector (strided ones) and of the E-vector.
+CEED_EXTERN int CeedElemRestrictionGetLLayout(CeedElemRestriction rstr, CeedInt layout[3]);
+CEED_EXTERN int CeedElemRestrictionGetELayout(CeedElemRestriction rstr, CeedInt layout[3]);
+/// Where the values of element `elem` start in an E-vector at points.
+CEED_EXTERN int CeedElemRestrictionGetAtPointsElementOffset(CeedElemRestriction rstr, CeedInt elem,
+                                                            CeedSize *elem_offset);
+CEED_EXTERN int CeedElemRestrictionGetData(CeedElemRestriction rstr, void *data);
+CEED_EXTERN int CeedElemRestrictionSetData(CeedElemRestriction rstr, void *data);
+CEED_EXTERN int CeedElemRestrictionReference(CeedElemRestriction rstr);
+/// Floating point operations of one application.
+CEED_EXTERN int CeedElemRestrictionGetFlopsEstimate(CeedElemRestriction rstr, CeedTransposeMode t_mode,
+                                                    CeedSize *flops);
+/// @}
+
+/// Space that a basis spans.
+typedef enum {
+  CEED_FE_SPACE_H1 = 1,
+  CEED_FE_SPACE_HDIV = 2,
+  CEED_FE_SPACE_HCURL = 3,
+} CeedFESpace;
+CEED_EXTERN const char *const CeedFESpaces[];
+
+/// @name Bases
+/// @{
+/// Derivative at the quadrature points of the polynomial through values there: Q_1d by Q_1d, row-major, grad_1d =
+/// colo_grad_1d interp_1d. Needs Q_1d >= P_1d.
+CEED_EXTERN int CeedBasisGetCollocatedGrad(CeedBasis basis, CeedScalar *colo_grad_1d);
+/// Values of the basis' P_1d Chebyshev polynomials of the first kind at the quadrature points' ...: Q_1d by Q_1d matrix
+/// that takes Chebyshev coefficients to values at the quadrature points, row-major.
+CEED_EXTERN int CeedBasisGetChebyshevInterp1D(CeedBasis basis, CeedScalar *chebyshev_interp_1d);
+CEED_EXTERN int CeedBasisIsTensor(CeedBasis basis, bool *is_tensor);
+/// Whether the quadrature points are the nodes.
+CEED_EXTERN int CeedBasisIsCollocated(CeedBasis basis, bool *is_collocated);
+CEED_EXTERN int CeedBasisGetData(CeedBasis basis, void *data);
+CEED_EXTERN int CeedBasisSetData(CeedBasis basis, void *data);
+CEED_EXTERN int CeedBasisReference(CeedBasis basis);
+/// Values at a point for one component: 1, dim for GRAD.
+CEED_EXTERN int CeedBasisGetNumQuadratureComponents(CeedBasis basis, CeedEvalMode eval_mode, CeedInt *q_comp);
+/// Floating point operations for one element.
+CEED_EXTERN int CeedBasisGetFlopsEstimate(CeedBasis basis, CeedTransposeMode t_mode, CeedEvalMode eval_mode,
+                                          bool is_at_points, CeedInt num_points, CeedSize *flops);
+CEED_EXTERN int CeedBasisGetFESpace(CeedBasis basis, CeedFESpace *fe_space);
+CEED_EXTERN int CeedBasisGetTopologyDimension(CeedElemTopology topo, CeedInt *dim);
+/// Values (1) and derivatives (dim) of all nodes' basis functions at a reference point of a tensor-product basis whose
+/// nodes lie where its quadrature rule determines the polynomial: interp[n], grad[d*num_nodes + n]; either may be NULL.
+CEED_EXTERN int CeedBasisEvaluateAtPoint(CeedBasis basis, const CeedScalar *x_ref, CeedScalar *interp,
+                                         CeedScalar *grad);
+/// @}
+
+/// @name QFunctions and contexts
+/// @{
+CEED_EXTERN int CeedQFunctionRegister(const char *name, const char *source, CeedInt vec_length, CeedQFunctionUser f,
+                                      int (*init)(Ceed, const char *, CeedQFunction));
+CEED_EXTERN int CeedQFunctionGetVectorLength(CeedQFunction qf, CeedInt *vec_length);
+CEED_EXTERN int CeedQFunctionGetNumArgs(CeedQFunction qf, CeedInt *num_input_fields, CeedInt *num_output_fields);
+CEED_EXTERN int CeedQFunctionGetKernelName(CeedQFunction qf, const char **kernel_name);
+CEED_EXTERN int CeedQFunctionGetName(CeedQFunction qf, const char **name);
+/// File of the function's source; NULL where none was given.
+CEED_EXTERN int CeedQFunctionGetSourcePath(CeedQFunction qf, const char **source_path);
+CEED_EXTERN int CeedQFunctionGetUserFunction(CeedQFunction qf, CeedQFunctionUser *f);
+/// *ctx is NULL where the function has none.
+CEED_EXTERN int CeedQFunctionGetContext(CeedQFunction qf, CeedQFunctionContext *ctx);
+/// Data of the context (*data is NULL where there is none) with the access that the function was promised.
+CEED_EXTERN int CeedQFunctionGetContextData(CeedQFunction qf, CeedMemType mem_type, void *data);
+CEED_EXTERN int CeedQFunctionRestoreContextData(CeedQFunction qf, void *data);
+CEED_EXTERN int CeedQFunctionIsIdentity(CeedQFunction qf, bool *is_identity);
+CEED_EXTERN int CeedQFunctionIsContextWritable(CeedQFunction qf, bool *is_writable);
+CEED_EXTERN int CeedQFunctionGetData(CeedQFunction qf, void *data);
+CEED_EXTERN int CeedQFunctionSetData(CeedQFunction qf, void *data);
+CEED_EXTERN int CeedQFunctionIsImmutable(CeedQFunction qf, bool *is_immutable);
+CEED_EXTERN int CeedQFunctionSetImmutable(CeedQFunction qf);
+CEED_EXTERN int CeedQFunctionReference(CeedQFunction qf);
+CEED_EXTERN int CeedQFunctionGetFlopsEstimate(CeedQFunction qf, CeedSize *flops);
+CEED_EXTERN int CeedQFunctionContextGetCeed(CeedQFunctionContext ctx, Ceed *ceed);
+CEED_EXTERN Ceed CeedQFunctionContextReturnCeed(CeedQFunctionContext ctx);
+CEED_EXTERN int CeedQFunctionContextHasValidData(CeedQFunctionContext ctx, bool *has_valid_data);
+CEED_EXTERN int CeedQFunctionContextHasBorrowedDataOfType(CeedQFunctionContext ctx, CeedMemType mem_type,
+                                                          bool *has_borrowed_data_of_type);
+CEED_EXTERN int CeedQFunctionContextGetState(CeedQFunctionContext ctx, uint64_t *state);
+/// *field_label is NULL where no field has that name.
+CEED_EXTERN int CeedQFunctionContextGetFieldLabel(CeedQFunctionContext ctx, const char *field_name,
+                                                  CeedContextFieldLabel *field_label);
+CEED_EXTERN int CeedQFunctionContextSetDouble(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
+                                              double *values);
+CEED_EXTERN int CeedQFunctionContextGetDoubleRead(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
+                                                  size_t *num_values, const double **values);
+CEED_EXTERN int CeedQFunctionContextRestoreDoubleRead(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
+                                                      const double **values);
+CEED_EXTERN int CeedQFunctionContextSetInt32(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
+                                             int32_t *values);
+CEED_EXTERN int CeedQFunctionContextGetInt32Read(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
+                                                 size_t *num_values, const int32_t **values);
+CEED_EXTERN int CeedQFunctionContextRestoreInt32Read(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
+                                                     const int32_t **values);
+CEED_EXTERN int CeedQFunctionContextSetBoolean(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
+                                               bool *values);
+CEED_EXTERN int CeedQFunctionContextGetBooleanRead(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
+                                                   size_t *num_values, const bool **values);
+CEED_EXTERN int CeedQFunctionContextRestoreBooleanRead(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
+                                                       const bool **values);
+CEED_EXTERN int CeedQFunctionContextReference(CeedQFunctionContext ctx);
+/// @}
+
+/// @name Operators
+/// @{
+/// The basis and restriction of the active field; an error where there are several.
+CEED_EXTERN int CeedOperatorGetActiveBasis(CeedOperator op, CeedBasis *active_basis);
+CEED_EXTERN int CeedOperatorGetActiveBases(CeedOperator op, CeedBasis *active_input_basis,
+                                           CeedBasis *active_output_basis);
+CEED_EXTERN int CeedOperatorGetActiveElemRestriction(CeedOperator op, CeedElemRestriction *active_rstr);
+CEED_EXTERN int CeedOperatorGetActiveElemRestrictions(CeedOperator op, CeedElemRestriction *active_input_rstr,
+                                                      CeedElemRestriction *active_output_rstr);
+CEED_EXTERN int CeedOperatorGetNumArgs(CeedOperator op, CeedInt *num_args);
+CEED_EXTERN int CeedOperatorHasTensorBases(CeedOperator op, bool *has_tensor_bases);
+CEED_EXTERN int CeedOperatorIsImmutable(CeedOperator op, bool *is_immutable);
+CEED_EXTERN int CeedOperatorIsSetupDone(CeedOperator op, bool *is_setup_done);
+CEED_EXTERN int CeedOperatorGetQFunction(CeedOperator op, CeedQFunction *qf);
+CEED_EXTERN int CeedOperatorIsComposite(CeedOperator op, bool *is_composite);
+CEED_EXTERN int CeedOperatorGetData(CeedOperator op, void *data);
+CEED_EXTERN int CeedOperatorSetData(CeedOperator op, void *data);
+CEED_EXTERN int CeedOperatorReference(CeedOperator op);
+/// @}
+
+#endif

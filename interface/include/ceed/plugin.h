@@ -1,0 +1,198 @@
+/// @file
+/// What a backend is: tables of functions, the operator program they work from, and the symbol a plugin exports.
+///
+/// A backend fills the tables below. Its tables start as a copy of its parent's, so it names only what it does better.
+/// Functions of one group share the `data` pointer of their object (CeedVectorSetData() and its like): a backend that
+/// replaces `create` of a group replaces all of that group which read the data.
+/// Every function returns a CeedErrorType and reports errors with CeedError(). Arguments have been checked by the core:
+/// handles are valid and of one Ceed family, sizes fit, access locks are free. Functions marked "optional" may be NULL;
+/// the core then does the work on the host.
+#ifndef CEED_PLUGIN_H
+#define CEED_PLUGIN_H
+
+#include <ceed/backend.h>
+
+/// Version of this file. A plugin of another version is refused; fields are only appended within one version.
+#define CEED_PLUGIN_API_VERSION 1u
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Memory and arithmetic of vectors. The core keeps the access locks and the state counter.
+typedef struct {
+  int (*create)(CeedVector vec);
+  int (*destroy)(CeedVector vec);
+  int (*set_array)(CeedVector vec, CeedMemType mem_type, CeedCopyMode copy_mode, CeedScalar *array);
+  int (*take_array)(CeedVector vec, CeedMemType mem_type, CeedScalar **array);
+  int (*sync_array)(CeedVector vec, CeedMemType mem_type);
+  int (*get_array)(CeedVector vec, CeedMemType mem_type, CeedScalar **array);
+  int (*get_array_read)(CeedVector vec, CeedMemType mem_type, const CeedScalar **array);
+  int (*get_array_write)(CeedVector vec, CeedMemType mem_type, CeedScalar **array);
+  int (*has_valid_array)(CeedVector vec, bool *has_valid_array);
+  int (*has_borrowed_array)(CeedVector vec, CeedMemType mem_type, bool *has_borrowed_array);
+  int (*restore_array)(CeedVector vec);                                            ///< optional
+  int (*restore_array_read)(CeedVector vec);                                       ///< optional
+  int (*set_value)(CeedVector vec, CeedScalar value);                              ///< optional
+  int (*norm)(CeedVector vec, CeedNormType type, CeedScalar *norm);                ///< optional
+  int (*scale)(CeedVector x, CeedScalar alpha);                                    ///< optional
+  int (*axpy)(CeedVector y, CeedScalar alpha, CeedVector x);                       ///< optional
+  int (*axpby)(CeedVector y, CeedScalar alpha, CeedScalar beta, CeedVector x);     ///< optional
+  int (*pointwise_mult)(CeedVector w, CeedVector x, CeedVector y);                 ///< optional
+  int (*reciprocal)(CeedVector vec);                                               ///< optional
+  int (*filter)(CeedVector x, CeedScalar threshold);                               ///< optional
+  int (*copy)(CeedVector vec, CeedVector vec_copy);                                ///< optional
+  int (*copy_strided)(CeedVector vec, CeedSize start, CeedSize stop, CeedSize step, CeedVector vec_copy);  ///< optional
+  int (*set_value_strided)(CeedVector vec, CeedSize start, CeedSize stop, CeedSize step, CeedScalar value);  ///< optional
+} CeedVectorOps;
+
+/// Restrictions. The core keeps the offsets on the host and has checked their range.
+typedef struct {
+  int (*create)(CeedElemRestriction rstr);   ///< optional
+  int (*destroy)(CeedElemRestriction rstr);  ///< optional
+  int (*apply)(CeedElemRestriction rstr, CeedTransposeMode t_mode, CeedVector u, CeedVector ru);
+  int (*apply_at_points_in_element)(CeedElemRestriction rstr, CeedInt elem, CeedTransposeMode t_mode, CeedVector u,
+                                    CeedVector ru);
+} CeedElemRestrictionOps;
+
+/// Bases. The core keeps the matrices on the host. `add`: v += ... (transpose only), else v is overwritten.
+typedef struct {
+  int (*create)(CeedBasis basis);   ///< optional
+  int (*destroy)(CeedBasis basis);  ///< optional
+  int (*apply)(CeedBasis basis, CeedInt num_elem, CeedTransposeMode t_mode, CeedEvalMode eval_mode, CeedVector u,
+               CeedVector v, bool add);
+  int (*apply_at_points)(CeedBasis basis, CeedInt num_elem, const CeedInt *num_points, CeedTransposeMode t_mode,
+                         CeedEvalMode eval_mode, CeedVector x_ref, CeedVector u, CeedVector v, bool add);
+} CeedBasisOps;
+
+/// QFunctions called by themselves.
+typedef struct {
+  int (*create)(CeedQFunction qf);   ///< optional
+  int (*destroy)(CeedQFunction qf);  ///< optional
+  int (*apply)(CeedQFunction qf, CeedInt Q, const CeedVector *u, const CeedVector *v);
+} CeedQFunctionOps;
+
+/// A distinct (restriction, vector) of a program: gathered or scattered once, however many fields use it.
+typedef struct {
+  CeedElemRestriction rstr;
+  CeedVector vec;  ///< CEED_VECTOR_ACTIVE or a passive vector
+  CeedInt num_comp;
+  CeedInt elem_size;  ///< nodes of an element; for points (is_points) the largest number in an element
+  bool is_active;
+  bool is_points;  ///< the restriction is one at points
+} CeedProgramSide;
+
+/// One input or output of the QFunction.
+typedef struct {
+  const char *name;
+  CeedEvalMode eval_mode;
+  CeedInt size;         ///< values at a point
+  CeedInt side;         ///< index in `sources` (inputs) or `sinks` (outputs); -1 for CEED_EVAL_WEIGHT
+  CeedInt space;        ///< index in `spaces`; -1 for CEED_EVAL_NONE
+  CeedInt first_value;  ///< active fields: number of active values before this one, the row or column of its first
+                        ///< component in the assembled QFunction; -1 for passive ones
+} CeedProgramField;
+
+/// A distinct (restriction, basis): evaluated once, however many fields use it. For CEED_EVAL_WEIGHT the restriction is
+/// CEED_ELEMRESTRICTION_NONE.
+typedef struct {
+  CeedElemRestriction rstr;
+  CeedBasis basis;
+} CeedProgramSpace;
+
+/// A single operator, lowered when it is first used: what backends, assembly and code printers read.
+/// All pointers belong to the operator; handles are not counted.
+typedef struct {
+  CeedQFunction qf;
+  bool at_points;
+  CeedInt num_elem;
+  CeedInt num_qpts;  ///< points of an element; at points the largest number
+  CeedInt num_sources, num_sinks, num_spaces, num_inputs, num_outputs;
+  const CeedProgramSide *sources, *sinks;
+  const CeedProgramSpace *spaces;
+  const CeedProgramField *inputs, *outputs;
+  CeedInt num_active_in, num_active_out;  ///< active values at a point: size of the assembled QFunction
+  CeedElemRestriction points_rstr;        ///< at points: restriction and L-vector of the reference coordinates
+  CeedVector points;
+  CeedSize points_epoch;  ///< counts the calls of CeedOperatorAtPointsSetPoints(): what depends on points is stale when
+                          ///< it changes
+} CeedProgram;
+
+/// Which outputs an application adds to.
+typedef enum {
+  CEED_APPLY_ADD_ALL = 0,     ///< active and passive outputs are added to
+  CEED_APPLY_ADD_ACTIVE = 1,  ///< the active output is added to, passive ones are written
+} CeedApplyMode;
+
+/// Single operators; composites are the core's. `program` is that of CeedOperatorGetProgram().
+typedef struct {
+  int (*create)(CeedOperator op, const CeedProgram *program);  ///< optional; after lowering
+  int (*destroy)(CeedOperator op);                             ///< optional
+  /// in, out: L-vectors, or CEED_VECTOR_NONE where the operator has no active input or output.
+  int (*apply_add)(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  /// values: num_active_in * num_active_out components at all points. At quadrature points E-vector layout (point,
+  /// component, element), point fastest; at points one element after another, component fastest. Overwritten.
+  int (*linear_assemble_qfunction)(CeedOperator op, const CeedProgram *program, CeedVector values);
+  /// diagonal += ...; optional: the core assembles the QFunction and contracts.
+  int (*linear_assemble_add_diagonal)(CeedOperator op, const CeedProgram *program, CeedVector diagonal);
+  /// Element matrices, (output dof, input dof) row-major, dof = component * nodes + node; optional as above.
+  int (*linear_assemble)(CeedOperator op, const CeedProgram *program, CeedSize offset, CeedVector values);
+} CeedOperatorOps;
+
+/// All that a backend does.
+typedef struct {
+  size_t size;           ///< sizeof(CeedBackendOps) as the backend was compiled; set by the core for a copy
+  uint32_t api_version;  ///< CEED_PLUGIN_API_VERSION
+  CeedMemType preferred_mem_type;
+  bool is_deterministic;
+  bool host_memory_only;  ///< CEED_MEM_DEVICE is refused before it reaches the tables
+  int (*ceed_destroy)(Ceed ceed);                   ///< optional: frees CeedGetData()
+  int (*ceed_set_stream)(Ceed ceed, void *handle);  ///< optional
+  CeedVectorOps vector;
+  CeedElemRestrictionOps restriction;
+  CeedBasisOps basis;
+  CeedQFunctionOps qfunction;
+  CeedOperatorOps op;
+} CeedBackendOps;
+
+/// One backend of a plugin.
+typedef struct {
+  const char *resource;        ///< full name, "/cpu/self/ref/serial"
+  const char *parent;          ///< resource whose tables this one starts from; NULL: all entries are its own
+  unsigned int priority;       ///< lower is preferred among equally long matches
+  const char *const *aliases;  ///< further resources that lead here, ended by NULL; may be NULL
+  /// How well this machine suits the backend; 0: not at all, and *reason says why. NULL counts as 1.
+  int (*score)(const char **reason);
+  /// Changes `ops` (a copy of the parent's) and sets up `ceed`; `options` is what follows the colon in the resource that
+  /// was asked for, or "".
+  int (*init)(Ceed ceed, const char *options, CeedBackendOps *ops);
+} CeedBackend;
+
+/// What a plugin is.
+typedef struct {
+  size_t size;           ///< sizeof(CeedPlugin)
+  uint32_t api_version;  ///< CEED_PLUGIN_API_VERSION
+  const char *name;
+  size_t num_backends;
+  const CeedBackend *backends;
+} CeedPlugin;
+
+/// The one symbol that a plugin library exports; what it returns lives as long as the process.
+CEED_EXTERN const CeedPlugin *ceed_plugin_v1(void);
+typedef const CeedPlugin *(*CeedPluginEntry)(void);
+
+/// Registers the backends of a plugin that is part of the program.
+CEED_EXTERN int CeedPluginRegister(const CeedPlugin *plugin);
+/// Loads a plugin library. Errors (missing file or symbol, another API version, wrong architecture) are returned and
+/// named in CeedPluginLoadError(); no handler is called, and what was registered before stays.
+CEED_EXTERN int CeedPluginLoad(const char *path);
+/// Message of the last failed load in this process, or "".
+CEED_EXTERN const char *CeedPluginLoadError(void);
+/// The lowered operator; valid until the operator is destroyed or its points are set again. `op` is not composite.
+CEED_EXTERN int CeedOperatorGetProgram(CeedOperator op, const CeedProgram **program);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
