@@ -4,6 +4,7 @@
 
 #include <ceed.h>
 #include <petscdm.h>
+#include <petscsection.h>
 #include <petscsf.h>
 #include <petscsnes.h>
 #include <petscts.h>

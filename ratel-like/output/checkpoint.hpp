@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "../swarm/cell_grid.hpp"
-#include "../swarm/swarm.hpp"
+#include "swarm/cell_grid.hpp"
+#include "swarm/swarm.hpp"
 
 namespace hg {
 
@@ -24,20 +24,21 @@ struct Checkpoint {
 /// Writes `path` (HDF5). Written to `path`.tmp, flushed to the disk, then renamed over `path`: whatever goes wrong, a
 /// full disk above all, the old checkpoint stays, the temporary file is removed, and the error names the cause on every
 /// rank. Collective. The grid is recorded by a fingerprint.
-PetscErrorCode write_checkpoint(MPI_Comm comm, const std::string &path, const CellGrid &grid, const Checkpoint &state);
+void write_checkpoint(MPI_Comm comm, const std::string &path, const CellGrid &grid, const Checkpoint &state);
 
 /// Reads `path` into `state`: step, time, dt, scalars, texts; the vectors named in state.vectors; the swarm if not
 /// nullptr (resized; cells and ξ are as written, so no location is needed). A run on the same ranks goes on bitwise.
 /// Clear errors: no such file, not a checkpoint, another version, another number of ranks, another mesh or partition, a
 /// vector of another size, points where none are expected or the other way round. Collective.
-PetscErrorCode read_checkpoint(MPI_Comm comm, const std::string &path, const CellGrid &grid, Checkpoint &state);
+void read_checkpoint(MPI_Comm comm, const std::string &path, const CellGrid &grid, Checkpoint &state);
 
 /// When to write: -checkpoint <file> (default: none), -checkpoint_interval <steps> (1); -restart <file>.
 struct CheckpointOptions {
   std::string file;
   PetscInt interval = 1;
   std::string restart;
+
+  static CheckpointOptions read(MPI_Comm comm);
 };
-PetscErrorCode checkpoint_options_from_petsc(MPI_Comm comm, CheckpointOptions &options);
 
 }  // namespace hg

@@ -1,4 +1,5 @@
 #pragma once
+#include <ceed.h>
 #include <petscsys.h>
 
 #include <span>
@@ -13,9 +14,9 @@ namespace hg {
 /// which is not so for VTK's Lagrange cells (their edge order changed between versions).
 struct MeshView {
   PetscInt order = 1;
-  PetscInt num_nodes = 0;                ///< nodes in the local vector
-  std::span<const PetscInt> cell_nodes;  ///< num_cells × (p+1)³ node numbers in [0, num_nodes)
-  std::span<const double> corners;       ///< num_cells × 8 × 3, tensor order (trilinear geometry)
+  PetscInt num_nodes = 0;               ///< nodes in the local vector
+  std::span<const CeedInt> cell_nodes;  ///< num_cells × (p+1)³: 3 × node, as Mesh::node_offsets has them
+  std::span<const double> corners;      ///< num_cells × 8 × 3, tensor order (trilinear geometry)
 };
 
 struct NodeField {
@@ -33,18 +34,18 @@ struct CellField {
 /// write.
 class MeshWriter {
  public:
-  PetscErrorCode open(MPI_Comm comm, std::string prefix);
-  PetscErrorCode resume(PetscInt last_step);
+  MeshWriter(MPI_Comm comm, std::string prefix);
+  void resume(PetscInt last_step);
   /// Collective. Values are written as 64-bit floats, base64.
-  PetscErrorCode write(PetscInt step, PetscReal time, const MeshView &mesh, std::span<const NodeField> nodes,
-                       std::span<const CellField> cells = {});
+  void write(PetscInt step, PetscReal time, const MeshView &mesh, std::span<const NodeField> nodes,
+             std::span<const CellField> cells = {});
 
  private:
   struct Entry {
     PetscInt step;
     PetscReal time;
   };
-  MPI_Comm comm_ = MPI_COMM_NULL;
+  MPI_Comm comm_;
   std::string prefix_;
   std::vector<Entry> entries_;
 };

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../swarm/swarm.hpp"
+#include "swarm/swarm.hpp"
 
 namespace hg {
 
@@ -25,11 +25,11 @@ struct ExtraPointField {
 class PointsWriter {
  public:
   /// Nothing is written yet. A directory in the prefix must exist.
-  PetscErrorCode open(MPI_Comm comm, std::string prefix);
+  PointsWriter(MPI_Comm comm, std::string prefix);
   /// After a restart: keep the outputs of an earlier run that are listed in <prefix>.xdmf with step <= last_step.
-  PetscErrorCode resume(PetscInt last_step);
-  /// Collective. Failure to write (full disk, no permission) is an error naming the file and the cause.
-  PetscErrorCode write(PetscInt step, PetscReal time, const Swarm &swarm, std::span<const ExtraPointField> extra = {});
+  void resume(PetscInt last_step);
+  /// Collective. Failure to write (full disk, no permission) throws hg::Error naming the file and the cause.
+  void write(PetscInt step, PetscReal time, const Swarm &swarm, std::span<const ExtraPointField> extra = {});
 
  private:
   struct Entry {
@@ -38,7 +38,7 @@ class PointsWriter {
     PetscInt num_points;
     std::vector<std::pair<std::string, PetscInt>> extra;
   };
-  MPI_Comm comm_ = MPI_COMM_NULL;
+  MPI_Comm comm_;
   std::string prefix_;
   std::vector<Entry> entries_;
 };

@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "swarm.hpp"
+#include "options/handle.hpp"
+#include "swarm/swarm.hpp"
 
 namespace hg {
 
@@ -16,15 +17,11 @@ namespace hg {
 /// QFunctions and compiled kernels are not here: they live for the run.
 class PointEpoch {
  public:
-  PointEpoch() = default;
-  ~PointEpoch();
-  PointEpoch(PointEpoch &&other) noexcept;
-  PointEpoch &operator=(PointEpoch &&other) noexcept;
-
   /// Counting sort of the points by cell (stable: storage order within a cell), and the reference coordinates as a
   /// CeedVector. Not collective. Cells without points are fine, and so is a rank without points.
-  /// Fails if a point's cell is not in [0, num_cells): the swarm was not located.
-  PetscErrorCode build(Ceed ceed, std::int32_t num_cells, const Swarm &swarm);
+  /// Throws hg::Error if a point's cell is not in [0, num_cells): the swarm was not located.
+  /// `ceed` is borrowed and must outlive the epoch. Movable.
+  PointEpoch(Ceed ceed, std::int32_t num_cells, const Swarm &swarm);
 
   std::int32_t num_cells() const { return num_cells_; }
   std::int32_t num_points() const { return num_points_; }
@@ -41,18 +38,18 @@ class PointEpoch {
   /// Restriction at points for a field of num_comp components whose L-vector is in storage order, the components of a
   /// point next to each other: entry (point p, component c) at p num_comp + c. Made on first use, kept, owned by the
   /// epoch; CeedOperatorSetField takes its own reference.
-  PetscErrorCode points(CeedInt num_comp, CeedElemRestriction &rstr) const;
+  CeedElemRestriction points(CeedInt num_comp) const;
 
-  /// A CeedVector over `values` (num_points × num_comp, storage order), which it copies. The caller destroys it.
-  PetscErrorCode vector(CeedInt num_comp, std::span<const double> values, CeedVector &vec) const;
+  /// A CeedVector with a copy of `values`: num_points × num_comp, storage order.
+  CeedVectorHandle vector(CeedInt num_comp, std::span<const double> values) const;
 
  private:
-  void clear();
-  Ceed ceed_ = nullptr;
+  Ceed ceed_;
   std::int32_t num_cells_ = 0, num_points_ = 0, max_points_ = 0, num_empty_ = 0;
   std::vector<std::int32_t> starts_, order_;
-  CeedVector x_ref_ = nullptr;
-  mutable std::map<CeedInt, CeedElemRestriction> rstr_;
+  std::vector<CeedInt> offsets_;
+  CeedVectorHandle x_ref_;
+  mutable std::map<CeedInt, CeedElemRestrictionHandle> rstr_;
 };
 
 }  // namespace hg

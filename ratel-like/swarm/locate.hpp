@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "cell_grid.hpp"
+#include "swarm/cell_grid.hpp"
 
 namespace hg {
 

@@ -1,27 +1,22 @@
 #pragma once
-#include <petscdm.h>
-
 #include <span>
-#include <vector>
 
-#include "cell_grid.hpp"
-#include "locate.hpp"
-#include "swarm.hpp"
+#include "mesh/mesh.hpp"
+#include "swarm/cell_grid.hpp"
+#include "swarm/locate.hpp"
+#include "swarm/swarm.hpp"
 
 namespace hg {
 
-/// The CellGrid of a non-overlapping DMPlex of hexahedra. Collective.
-/// corners: num_cells × 8 × 3 in tensor order, as mesh.hpp holds them (their values must be those of the DM's
-/// coordinates, for corners are matched with vertices by coordinates). cell_ids: num_cells numbers of the cells in the
-/// undistributed mesh, or empty: then the global numbering of the distributed DM is used (ids depend on the partition).
-/// Faces shared between ranks are paired through the DM's point SF.
-PetscErrorCode build_cell_grid(DM dm, std::span<const double> corners, std::span<const PetscInt> cell_ids,
-                               CellGrid &grid);
+/// The CellGrid of a mesh; faces shared between ranks are paired through the point SF of its DMPlex. Collective.
+/// cell_ids: numbers of the local cells in the undistributed mesh (distribute_mesh hands them out), or empty: then
+/// cells are numbered by rank, and what seeding derives from the numbers depends on the partition.
+CellGrid build_cell_grid(const Mesh &mesh, std::span<const PetscInt> cell_ids);
 
 /// What a call of locate_points did, summed over all ranks.
 struct MigrateStats {
-  PetscInt moved = 0;         ///< points that changed rank
-  PetscInt rounds = 0;        ///< exchanges with neighbours; 0 if nothing crossed
+  PetscInt moved = 0;         ///< points shipped to another rank, counted at every hop
+  PetscInt rounds = 0;        ///< exchanges between ranks; 0 if nothing crossed
   PetscInt removed = 0;       ///< points removed by OutsidePolicy::kRemove
   PetscInt projected = 0;     ///< points moved back by OutsidePolicy::kProject
   double removed_mass = 0.0;  ///< kg
@@ -33,8 +28,8 @@ struct MigrateStats {
 ///
 /// A point whose walk ends at the boundary is offered to every rank once (concave domains); if none holds it,
 /// options.outside says what happens. kError: the message gives id, coordinates, and the nearest cell.
-/// The number of points and Σ rho0 V0 are compared before and after; a difference stops the run with a message.
-PetscErrorCode locate_points(const SwarmOptions &options, const CellGrid &grid, const HexLocator &locator, Swarm &swarm,
-                             MigrateStats *stats = nullptr);
+/// The number of points and Σ rho0 V0 are compared before and after; a difference stops the run with a message
+/// (hg::Error on every rank).
+MigrateStats locate_points(const SwarmOptions &options, const CellGrid &grid, const HexLocator &locator, Swarm &swarm);
 
 }  // namespace hg

@@ -6,8 +6,9 @@
 #include <functional>
 #include <span>
 
-#include "cell_grid.hpp"
-#include "locate.hpp"
+#include "options/handle.hpp"
+#include "swarm/cell_grid.hpp"
+#include "swarm/locate.hpp"
 
 namespace hg {
 
@@ -41,10 +42,10 @@ struct SwarmOptions {
   PointPlacement placement = PointPlacement::kUniform;  ///< -mpm_point_location_type uniform|gauss|cell_random
   PetscInt seed = 42;                                   ///< -mpm_seed, for cell_random
   OutsidePolicy outside = OutsidePolicy::kError;        ///< -mpm_point_outside error|project|remove
-};
 
-/// Reads and checks the options above; a bad value is an error that names option, value and expectation.
-PetscErrorCode swarm_options_from_petsc(MPI_Comm comm, SwarmOptions &options);
+  /// Reads and checks them; a bad value throws hg::Error that names option, value and expectation. Collective.
+  static SwarmOptions read(MPI_Comm comm);
+};
 
 /// What seeding asks of its caller for each point.
 struct PointMaterial {
@@ -57,33 +58,30 @@ struct PointMaterial {
 using PointMaterialFn = std::function<PointMaterial(std::int32_t cell, const double x[3])>;
 
 /// Material points of this rank: a DMSWARM_BASIC with the fields above, storage order = DMSwarm's order.
-/// Movable, not copyable; destroys its DM. One instance lives for the whole run.
+/// Movable, not copyable. One instance lives for the whole run. Functions throw hg::Error.
 class Swarm {
  public:
-  Swarm() = default;
-  ~Swarm();
-  Swarm(Swarm &&other) noexcept;
-  Swarm &operator=(Swarm &&other) noexcept;
-
   /// An empty swarm with every field registered. Collective on comm.
-  PetscErrorCode create(MPI_Comm comm);
+  explicit Swarm(MPI_Comm comm);
 
   DM dm() const { return dm_; }
   MPI_Comm comm() const;
-  /// Points on this rank; on all ranks (collective).
-  PetscErrorCode local_size(PetscInt &n) const;
-  PetscErrorCode global_size(PetscInt &n) const;
-  PetscErrorCode resize(PetscInt n);
+  /// Points on this rank.
+  PetscInt local_size() const;
+  /// Points on all ranks. Collective.
+  PetscInt global_size() const;
+  /// Makes room for n points on this rank; the values of new points are not set. Not collective.
+  void resize(PetscInt n);
 
   /// Σ rho0 V0 over all ranks, kg, independent of how points are spread (to rounding). Collective.
-  PetscErrorCode total_mass(double &mass) const;
+  double total_mass() const;
 
  private:
-  DM dm_ = nullptr;
+  DmHandle dm_;
 };
 
 /// Scoped access to one field of a swarm as a span in storage order, n × components. The swarm may not be resized or
-/// migrated meanwhile. T must match the field's type; a wrong name or size aborts with PETSc's error.
+/// migrated meanwhile. T must match the field's type; a name or type that the swarm does not have throws hg::Error.
 template <class T>
 class PointField {
  public:
@@ -113,7 +111,7 @@ extern template class PointField<std::int64_t>;
 /// Fills an empty swarm: for each cell of the grid, points where `material` wants them; F = I, u = v = 0, x = X0.
 /// Collective (only for its checks); each rank seeds its own cells, and ids, places and random numbers depend on the
 /// cell's global number alone, so every partition seeds the same points.
-PetscErrorCode seed_swarm(const SwarmOptions &options, const CellGrid &grid, const HexLocator &locator,
-                          const PointMaterialFn &material, Swarm &swarm);
+void seed_swarm(const SwarmOptions &options, const CellGrid &grid, const HexLocator &locator,
+                const PointMaterialFn &material, Swarm &swarm);
 
 }  // namespace hg
