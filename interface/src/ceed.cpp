@@ -1,0 +1,194 @@
+#include "ceed.hpp"
+
+#include <cstdlib>
+#include <cstring>
+
+#include "registry.hpp"
+#include "version.hpp"
+
+namespace hg {
+
+CeedErrorHandler default_error_handler();
+
+void require_mem_type(const Ceed_private &ceed, CeedMemType mem_type, const char *what) {
+  require(mem_type == CEED_MEM_HOST || mem_type == CEED_MEM_DEVICE, CEED_ERROR_MINOR, [&] {
+    return text("%s: memory type is %d; expected CEED_MEM_HOST (0) or CEED_MEM_DEVICE (1)", what,
+                static_cast<int>(mem_type));
+  });
+  require(mem_type == CEED_MEM_HOST || !ceed.ops.host_memory_only, CEED_ERROR_BACKEND, [&] {
+    return text("%s: Can only provide HOST memory for this backend (%s)", what, ceed.resource.c_str());
+  });
+}
+
+namespace {
+
+/// A list of C strings for the caller of the Get functions below; freed by the Restore functions.
+const char **string_list(const std::vector<std::string> &strings) {
+  auto **list = static_cast<const char **>(std::calloc(strings.size() + 1, sizeof(const char *)));
+  if (list == nullptr) throw std::bad_alloc();
+  for (std::size_t i = 0; i < strings.size(); i++) list[i] = strings[i].c_str();
+  return list;
+}
+
+int restore_list(const char ***list) {
+  if (list != nullptr) {
+    std::free(static_cast<void *>(*list));
+    *list = nullptr;
+  }
+  return CEED_ERROR_SUCCESS;
+}
+
+}  // namespace
+
+}  // namespace hg
+
+Ceed_private::~Ceed_private() {
+  if (ops.ceed_destroy != nullptr) ops.ceed_destroy(this);
+}
+
+void Ceed_private::view(FILE *stream) const {
+  const std::string indent = hg::tabs(*this);
+  std::fprintf(stream, "%sCeed\n%s  Ceed Resource: %s\n%s  Preferred MemType: %s\n", indent.c_str(), indent.c_str(),
+               resource.c_str(), indent.c_str(), CeedMemTypes[ops.preferred_mem_type]);
+}
+
+int CeedInit(const char *resource, Ceed *ceed) {
+  return hg::guard(nullptr, [&] {
+    hg::require(resource != nullptr, CEED_ERROR_MINOR, "Resource is NULL; expected a name such as \"/cpu/self\"");
+    hg::require(ceed != nullptr, CEED_ERROR_MINOR, "Address of the Ceed is NULL");
+    const std::string_view request = resource;
+    const auto colon = request.find(':');
+    const std::string name(request.substr(0, colon));
+    const std::string options(colon == std::string_view::npos ? "" : request.substr(colon + 1));
+    const CeedBackend &backend = hg::find_backend(name);
+    auto created = hg::Ref<Ceed_private>::adopt(new Ceed_private);
+    created->error_handler = hg::default_error_handler();
+    created->resource = backend.resource;
+    hg::fill_tables(created.get(), backend, options.c_str());
+    created->is_deterministic = created->is_deterministic || created->ops.is_deterministic;
+    // What *ceed held is overwritten, not destroyed: programs pass handles that they never initialised.
+    *ceed = created.release();
+  });
+}
+
+int CeedReferenceCopy(Ceed ceed, Ceed *ceed_copy) {
+  return hg::guard(ceed, [&] { hg::reference_copy(ceed, ceed_copy); });
+}
+
+int CeedReference(Ceed ceed) {
+  return hg::guard(ceed, [&] { hg::reference(&hg::deref(ceed, "Ceed")); });
+}
+
+int CeedDestroy(Ceed *ceed) {
+  return hg::guard(nullptr, [&] { hg::destroy(ceed); });
+}
+
+int CeedSetStream(Ceed ceed, void *handle) {
+  return hg::guard(ceed, [&] {
+    const auto set = hg::deref(ceed, "Ceed").ops.ceed_set_stream;
+    hg::require(set != nullptr, CEED_ERROR_UNSUPPORTED, [&] {
+      return hg::text("Backend does not implement CeedSetStream (%s has no streams)", ceed->resource.c_str());
+    });
+    hg::check(set(ceed, handle));
+  });
+}
+
+int CeedGetResource(Ceed ceed, const char **resource) {
+  return hg::guard(ceed, [&] { *resource = hg::deref(ceed, "Ceed").resource.c_str(); });
+}
+
+int CeedIsDeterministic(Ceed ceed, bool *is_deterministic) {
+  return hg::guard(ceed, [&] { *is_deterministic = hg::deref(ceed, "Ceed").is_deterministic; });
+}
+
+int CeedSetDeterministic(Ceed ceed, bool is_deterministic) {
+  return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").is_deterministic = is_deterministic; });
+}
+
+int CeedAddJitSourceRoot(Ceed ceed, const char *jit_source_root) {
+  return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").jit_source_roots.emplace_back(jit_source_root); });
+}
+
+int CeedAddJitDefine(Ceed ceed, const char *jit_define) {
+  return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").jit_defines.emplace_back(jit_define); });
+}
+
+int CeedGetJitSourceRoots(Ceed ceed, CeedInt *num_source_roots, const char ***jit_source_roots) {
+  return hg::guard(ceed, [&] {
+    const auto &roots = hg::deref(ceed, "Ceed").jit_source_roots;
+    *jit_source_roots = hg::string_list(roots);
+    *num_source_roots = static_cast<CeedInt>(roots.size());
+  });
+}
+
+int CeedRestoreJitSourceRoots(Ceed, const char ***jit_source_roots) { return hg::restore_list(jit_source_roots); }
+
+int CeedGetJitDefines(Ceed ceed, CeedInt *num_defines, const char ***jit_defines) {
+  return hg::guard(ceed, [&] {
+    const auto &defines = hg::deref(ceed, "Ceed").jit_defines;
+    *jit_defines = hg::string_list(defines);
+    *num_defines = static_cast<CeedInt>(defines.size());
+  });
+}
+
+int CeedRestoreJitDefines(Ceed, const char ***jit_defines) { return hg::restore_list(jit_defines); }
+
+int CeedSetNumViewTabs(Ceed ceed, CeedInt num_tabs) {
+  return CeedObjectSetNumViewTabs(reinterpret_cast<CeedObject>(ceed), num_tabs);
+}
+
+int CeedGetNumViewTabs(Ceed ceed, CeedInt *num_tabs) {
+  return CeedObjectGetNumViewTabs(reinterpret_cast<CeedObject>(ceed), num_tabs);
+}
+
+int CeedView(Ceed ceed, FILE *stream) {
+  return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").view(stream); });
+}
+
+int CeedGetVersion(int *major, int *minor, int *patch, bool *release) {
+  if (major != nullptr) *major = CEED_VERSION_MAJOR;
+  if (minor != nullptr) *minor = CEED_VERSION_MINOR;
+  if (patch != nullptr) *patch = CEED_VERSION_PATCH;
+  if (release != nullptr) *release = CEED_VERSION_RELEASE;
+  return CEED_ERROR_SUCCESS;
+}
+
+int CeedGetGitVersion(const char **git_version) {
+  *git_version = hg::git_version;
+  return CEED_ERROR_SUCCESS;
+}
+
+int CeedGetBuildConfiguration(const char **build_config) {
+  *build_config = hg::build_configuration;
+  return CEED_ERROR_SUCCESS;
+}
+
+int CeedSetIsClang(Ceed ceed, bool isClang) {
+  return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").is_clang = isClang; });
+}
+
+int CeedGetIsClang(Ceed ceed, bool *isClang) {
+  return hg::guard(ceed, [&] { *isClang = hg::deref(ceed, "Ceed").is_clang; });
+}
+
+int CeedGetScalarType(CeedScalarType *scalar_type) {
+  *scalar_type = CEED_SCALAR_TYPE;
+  return CEED_ERROR_SUCCESS;
+}
+
+int CeedGetPreferredMemType(Ceed ceed, CeedMemType *type) {
+  return hg::guard(ceed, [&] { *type = hg::deref(ceed, "Ceed").ops.preferred_mem_type; });
+}
+
+int CeedIsDebug(Ceed, bool *is_debug) {
+  *is_debug = std::getenv("CEED_DEBUG") != nullptr || std::getenv("DEBUG") != nullptr;
+  return CEED_ERROR_SUCCESS;
+}
+
+int CeedGetData(Ceed ceed, void *data) {
+  return hg::guard(ceed, [&] { *static_cast<void **>(data) = hg::deref(ceed, "Ceed").data; });
+}
+
+int CeedSetData(Ceed ceed, void *data) {
+  return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").data = data; });
+}

@@ -1,0 +1,128 @@
+#include "error.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+
+#include "ceed.hpp"
+
+namespace hg {
+
+namespace {
+
+std::string format_v(const char *format, va_list args) {
+  va_list again;
+  va_copy(again, args);
+  const int length = std::vsnprintf(nullptr, 0, format, again);
+  va_end(again);
+  if (length < 0) return format;
+  std::string result(static_cast<std::size_t>(length), '\0');
+  std::vsnprintf(result.data(), result.size() + 1, format, args);
+  return result;
+}
+
+std::string located(const char *file, int line, const char *function, const std::string &message) {
+  return text("%s:%d in %s(): ", file, line, function) + message;
+}
+
+CeedErrorHandler handler_from_environment() {
+  const char *name = std::getenv("CEED_ERROR_HANDLER");
+  if (name == nullptr) return CeedErrorAbort;
+  if (std::strcmp(name, "return") == 0) return CeedErrorReturn;
+  if (std::strcmp(name, "store") == 0) return CeedErrorStore;
+  if (std::strcmp(name, "exit") == 0) return CeedErrorExit;
+  return CeedErrorAbort;
+}
+
+/// The message kept by CeedErrorStore() when there is no Ceed to keep it.
+std::string &stored_without_ceed() {
+  thread_local std::string message;
+  return message;
+}
+
+constexpr const char *no_message = "No error message stored";
+
+}  // namespace
+
+CeedErrorHandler default_error_handler() { return handler_from_environment(); }
+
+std::string text(const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  std::string result = format_v(format, args);
+  va_end(args);
+  return result;
+}
+
+int report(Ceed ceed, const Error &error) noexcept {
+  const auto &where = error.where();
+  // source_location gives the whole signature; the interface's messages name the function alone.
+  std::string_view name = where.function_name();
+  if (const auto paren = name.find('('); paren != std::string_view::npos) name = name.substr(0, paren);
+  if (const auto space = name.rfind(' '); space != std::string_view::npos) name = name.substr(space + 1);
+  char function[128];
+  std::snprintf(function, sizeof function, "%.*s", static_cast<int>(name.size()), name.data());
+  return CeedErrorImpl(ceed, where.file_name(), static_cast<int>(where.line()), function, error.code(), "%s",
+                       error.what());
+}
+
+}  // namespace hg
+
+int CeedErrorImpl(Ceed ceed, const char *filename, int lineno, const char *func, int ecode, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  const CeedErrorHandler handler = ceed != nullptr ? ceed->error_handler : hg::handler_from_environment();
+  handler(ceed, filename, lineno, func, ecode, format, &args);
+  va_end(args);
+  return ecode;
+}
+
+int CeedErrorReturn(Ceed, const char *, int, const char *, int err_code, const char *, va_list *) { return err_code; }
+
+int CeedErrorStore(Ceed ceed, const char *filename, int line_no, const char *func, int err_code, const char *format,
+                   va_list *args) {
+  std::string &store = ceed != nullptr ? ceed->error_message : hg::stored_without_ceed();
+  // An error can pass several handlers on its way out; the first one tells what happened.
+  try {
+    store = hg::located(filename, line_no, func, hg::format_v(format, *args));
+  } catch (const std::exception &) {
+    store.clear();
+  }
+  return err_code;
+}
+
+int CeedErrorAbort(Ceed, const char *filename, int line_no, const char *func, int, const char *format, va_list *args) {
+  std::fprintf(stderr, "%s:%d in %s(): ", filename, line_no, func);
+  std::vfprintf(stderr, format, *args);
+  std::fputc('\n', stderr);
+  std::abort();
+}
+
+int CeedErrorExit(Ceed, const char *filename, int line_no, const char *func, int err_code, const char *format,
+                  va_list *args) {
+  std::fprintf(stderr, "%s:%d in %s(): ", filename, line_no, func);
+  std::vfprintf(stderr, format, *args);
+  std::fputc('\n', stderr);
+  std::exit(err_code);
+}
+
+int CeedSetErrorHandler(Ceed ceed, CeedErrorHandler handler) {
+  return hg::guard(ceed, [&] {
+    hg::require(handler != nullptr, CEED_ERROR_MINOR, "Error handler is NULL; expected a function");
+    hg::deref(ceed, "Ceed").error_handler = handler;
+  });
+}
+
+int CeedGetErrorMessage(Ceed ceed, const char **err_msg) {
+  const std::string &store = ceed != nullptr ? ceed->error_message : hg::stored_without_ceed();
+  *err_msg = store.empty() ? hg::no_message : store.c_str();
+  return CEED_ERROR_SUCCESS;
+}
+
+int CeedResetErrorMessage(Ceed ceed, const char **err_msg) {
+  (ceed != nullptr ? ceed->error_message : hg::stored_without_ceed()).clear();
+  *err_msg = nullptr;
+  return CEED_ERROR_SUCCESS;
+}

@@ -1,0 +1,433 @@
+#include "qfunction.hpp"
+
+#include <map>
+#include <mutex>
+
+#include "vector.hpp"
+
+namespace {
+
+struct NoneQFunction {
+  NoneQFunction() { object.is_sentinel = true; }
+  CeedQFunction_private object;
+};
+NoneQFunction none;
+
+/// A QFunction that can be created by name.
+struct Registered {
+  std::string source;
+  CeedInt vec_length;
+  CeedQFunctionUser function;
+  int (*init)(Ceed, const char *, CeedQFunction);
+};
+
+struct QFunctionRegistry {
+  std::mutex mutex;
+  std::map<std::string, Registered, std::less<>> entries;
+};
+
+QFunctionRegistry &qfunction_registry() {
+  static QFunctionRegistry registry;
+  return registry;
+}
+
+void split_source(const char *source, CeedQFunction_private &qf) {
+  if (source == nullptr) return;
+  const std::string_view text = source;
+  const auto colon = text.rfind(':');
+  if (colon == std::string_view::npos) {
+    qf.kernel_name = text;
+    return;
+  }
+  qf.source_path = text.substr(0, colon);
+  qf.kernel_name = text.substr(colon + 1);
+}
+
+hg::Ref<CeedQFunction_private> create(Ceed ceed, CeedInt vec_length, CeedQFunctionUser function, const char *source) {
+  hg::deref(ceed, "Ceed");
+  hg::require(vec_length >= 1, CEED_ERROR_DIMENSION, [&] {
+    return hg::text("QFunction: vec_length is %" CeedInt_FMT "; expected at least 1", vec_length);
+  });
+  auto qf = hg::Ref<CeedQFunction_private>::adopt(new CeedQFunction_private);
+  qf->ceed = hg::Ref<Ceed_private>(ceed);
+  qf->vec_length = vec_length;
+  qf->function = function;
+  split_source(source, *qf);
+  if (ceed->ops.qfunction.create != nullptr) hg::check(ceed->ops.qfunction.create(qf.get()));
+  return qf;
+}
+
+/// Checks that belong to inputs and outputs alike; returns the new field.
+std::unique_ptr<CeedQFunctionField_private> new_field(const CeedQFunction_private &qf, const char *field_name,
+                                                      CeedInt size, CeedEvalMode eval_mode) {
+  hg::require(!qf.is_immutable, CEED_ERROR_MAJOR, [&] {
+    return hg::text("QFunction '%s' takes no more fields after it has been used ('%s')", qf.kernel_name.c_str(),
+                    field_name != nullptr ? field_name : "(null)");
+  });
+  hg::require(field_name != nullptr && field_name[0] != '\0', CEED_ERROR_MINOR,
+              [&] { return hg::text("QFunction '%s': a field has no name", qf.kernel_name.c_str()); });
+  hg::require(size >= 1, CEED_ERROR_DIMENSION, [&] {
+    return hg::text("QFunction field '%s': size is %" CeedInt_FMT "; expected at least 1", field_name, size);
+  });
+  for (const auto *list : {&qf.input_list, &qf.output_list}) {
+    hg::require(hg::find_field(*list, field_name) < 0, CEED_ERROR_MINOR, [&] {
+      return hg::text("QFunction '%s' has a field '%s' already; expected a new name", qf.kernel_name.c_str(),
+                      field_name);
+    });
+  }
+  const bool is_known = eval_mode == CEED_EVAL_NONE || eval_mode == CEED_EVAL_INTERP || eval_mode == CEED_EVAL_GRAD ||
+                        eval_mode == CEED_EVAL_DIV || eval_mode == CEED_EVAL_CURL || eval_mode == CEED_EVAL_WEIGHT;
+  hg::require(is_known, CEED_ERROR_MINOR, [&] {
+    return hg::text("QFunction field '%s': evaluation mode is %d; expected a CeedEvalMode", field_name,
+                    static_cast<int>(eval_mode));
+  });
+  auto field = std::make_unique<CeedQFunctionField_private>();
+  field->name = field_name;
+  field->size = size;
+  field->eval_mode = eval_mode;
+  return field;
+}
+
+int identity(void *ctx, const CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+  const CeedInt size = *static_cast<const CeedInt *>(ctx);
+  for (CeedInt i = 0; i < Q * size; i++) out[0][i] = in[0][i];
+  return 0;
+}
+
+}  // namespace
+
+const CeedQFunction CEED_QFUNCTION_NONE = &none.object;
+
+namespace hg {
+
+int find_field(const std::vector<CeedQFunctionField> &fields, std::string_view name) {
+  for (std::size_t i = 0; i < fields.size(); i++) {
+    if (fields[i]->name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace hg
+
+CeedQFunction_private::~CeedQFunction_private() {
+  if (ceed && ceed->ops.qfunction.destroy != nullptr) ceed->ops.qfunction.destroy(this);
+}
+
+void CeedQFunction_private::view(FILE *stream) const {
+  const std::string indent = hg::tabs(*this);
+  const char *kind = gallery_name.empty() ? "User" : "Gallery";
+  const char *shown = gallery_name.empty() ? kernel_name.c_str() : gallery_name.c_str();
+  std::fprintf(stream, "%s%s CeedQFunction - %s\n", indent.c_str(), kind, shown);
+  const auto print = [&](const char *what, const std::vector<CeedQFunctionField> &fields) {
+    std::fprintf(stream, "%s  %zu %s field%s:\n", indent.c_str(), fields.size(), what, fields.size() == 1 ? "" : "s");
+    for (std::size_t i = 0; i < fields.size(); i++) {
+      std::fprintf(stream, "%s    %s field %zu:\n%s      Name: \"%s\"\n%s      Size: %" CeedInt_FMT "\n%s      EvalMode: \"%s\"\n",
+                   indent.c_str(), what, i, indent.c_str(), fields[i]->name.c_str(), indent.c_str(), fields[i]->size,
+                   indent.c_str(), CeedEvalModes[fields[i]->eval_mode]);
+    }
+  };
+  print("input", input_list);
+  print("output", output_list);
+}
+
+int CeedQFunctionRegister(const char *name, const char *source, CeedInt vec_length, CeedQFunctionUser f,
+                          int (*init)(Ceed, const char *, CeedQFunction)) {
+  return hg::guard(nullptr, [&] {
+    hg::require(name != nullptr && f != nullptr && init != nullptr, CEED_ERROR_MINOR,
+                "Registering a QFunction takes a name, a function and an init; one of them is NULL");
+    auto &registry = qfunction_registry();
+    const std::lock_guard lock(registry.mutex);
+    registry.entries.insert_or_assign(name, Registered{source != nullptr ? source : "", vec_length, f, init});
+  });
+}
+
+int CeedQFunctionCreateInterior(Ceed ceed, CeedInt vec_length, CeedQFunctionUser f, const char *source,
+                                CeedQFunction *qf) {
+  return hg::guard(ceed, [&] {
+    hg::require(f != nullptr, CEED_ERROR_MINOR, [&] {
+      return hg::text("QFunction '%s': the function is NULL", source != nullptr ? source : "(no source)");
+    });
+    *qf = create(ceed, vec_length, f, source).release();
+  });
+}
+
+int CeedQFunctionCreateInteriorByName(Ceed ceed, const char *name, CeedQFunction *qf) {
+  return hg::guard(ceed, [&] {
+    hg::require(name != nullptr, CEED_ERROR_MINOR, "QFunction name is NULL; expected a name of the gallery");
+    hg::check(CeedQFunctionRegisterAll());
+    Registered found;
+    {
+      auto &registry = qfunction_registry();
+      const std::lock_guard lock(registry.mutex);
+      const auto entry = registry.entries.find(name);
+      hg::require(entry != registry.entries.end(), CEED_ERROR_UNSUPPORTED, [&] {
+        std::string known;
+        for (const auto &[other, _] : registry.entries) known += (known.empty() ? "" : ", ") + other;
+        return hg::text("No suitable gallery QFunction: '%s'; there are %s", name, known.c_str());
+      });
+      found = entry->second;
+    }
+    auto created = create(ceed, found.vec_length, found.function, found.source.c_str());
+    created->gallery_name = name;
+    hg::check(found.init(ceed, name, created.get()));
+    created->is_immutable = created->gallery_name != "Scale" && created->gallery_name != "Scale (scalar)" &&
+                            created->gallery_name != "Identity";
+    *qf = created.release();
+  });
+}
+
+int CeedQFunctionCreateIdentity(Ceed ceed, CeedInt size, CeedEvalMode in_mode, CeedEvalMode out_mode,
+                                CeedQFunction *qf) {
+  return hg::guard(ceed, [&] {
+    auto created = create(ceed, 1, identity, "Identity");
+    created->is_identity = true;
+    created->gallery_name = "Identity";
+    created->user_flops = 0;
+    hg::check(CeedQFunctionAddInput(created.get(), "input", size, in_mode));
+    hg::check(CeedQFunctionAddOutput(created.get(), "output", size, out_mode));
+    CeedQFunctionContext context = nullptr;
+    hg::check(CeedQFunctionContextCreate(ceed, &context));
+    const auto held = hg::Ref<CeedQFunctionContext_private>::adopt(context);
+    hg::check(CeedQFunctionContextSetData(context, CEED_MEM_HOST, CEED_COPY_VALUES, sizeof size, &size));
+    hg::check(CeedQFunctionContextRegisterInt32(context, "size", 0, 1, "components copied at each point"));
+    hg::check(CeedQFunctionSetContext(created.get(), context));
+    created->is_context_writable = false;
+    *qf = created.release();
+  });
+}
+
+int CeedQFunctionReferenceCopy(CeedQFunction qf, CeedQFunction *qf_copy) {
+  return hg::guard(hg::ceed_of(qf), [&] { hg::reference_copy(qf, qf_copy); });
+}
+
+int CeedQFunctionReference(CeedQFunction qf) {
+  return hg::guard(hg::ceed_of(qf), [&] { hg::reference(&hg::deref(qf, "CeedQFunction")); });
+}
+
+int CeedQFunctionDestroy(CeedQFunction *qf) {
+  return hg::guard(qf != nullptr ? hg::ceed_of(*qf) : nullptr, [&] { hg::destroy(qf); });
+}
+
+int CeedQFunctionAddInput(CeedQFunction qf, const char *field_name, CeedInt size, CeedEvalMode eval_mode) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    hg::deref(qf, "CeedQFunction");
+    auto field = new_field(*qf, field_name, size, eval_mode);
+    hg::require(eval_mode != CEED_EVAL_WEIGHT || size == 1, CEED_ERROR_DIMENSION, [&] {
+      return hg::text("QFunction field '%s' of mode CEED_EVAL_WEIGHT: size is %" CeedInt_FMT "; expected 1", field_name,
+                      size);
+    });
+    qf->input_list.push_back(field.get());
+    qf->inputs.push_back(std::move(field));
+  });
+}
+
+int CeedQFunctionAddOutput(CeedQFunction qf, const char *field_name, CeedInt size, CeedEvalMode eval_mode) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    hg::deref(qf, "CeedQFunction");
+    auto field = new_field(*qf, field_name, size, eval_mode);
+    hg::require(eval_mode != CEED_EVAL_WEIGHT, CEED_ERROR_DIMENSION, [&] {
+      return hg::text("QFunction field '%s' is an output of mode CEED_EVAL_WEIGHT, which is for inputs alone",
+                      field_name);
+    });
+    qf->output_list.push_back(field.get());
+    qf->outputs.push_back(std::move(field));
+  });
+}
+
+int CeedQFunctionGetFields(CeedQFunction qf, CeedInt *num_input_fields, CeedQFunctionField **input_fields,
+                           CeedInt *num_output_fields, CeedQFunctionField **output_fields) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    hg::deref(qf, "CeedQFunction").is_immutable = true;
+    if (num_input_fields != nullptr) *num_input_fields = static_cast<CeedInt>(qf->input_list.size());
+    if (input_fields != nullptr) *input_fields = qf->input_list.data();
+    if (num_output_fields != nullptr) *num_output_fields = static_cast<CeedInt>(qf->output_list.size());
+    if (output_fields != nullptr) *output_fields = qf->output_list.data();
+  });
+}
+
+int CeedQFunctionSetContext(CeedQFunction qf, CeedQFunctionContext ctx) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    hg::deref(qf, "CeedQFunction").context = hg::Ref<CeedQFunctionContext_private>(ctx);
+  });
+}
+
+int CeedQFunctionSetContextWritable(CeedQFunction qf, bool is_writable) {
+  return hg::guard(hg::ceed_of(qf), [&] { hg::deref(qf, "CeedQFunction").is_context_writable = is_writable; });
+}
+
+int CeedQFunctionSetUserFlopsEstimate(CeedQFunction qf, CeedSize flops) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    hg::require(flops >= 0, CEED_ERROR_INCOMPATIBLE, [&] {
+      return hg::text("QFunction '%s': flops estimate is %" CeedSize_FMT "; expected at least 0",
+                      hg::deref(qf, "CeedQFunction").kernel_name.c_str(), flops);
+    });
+    hg::deref(qf, "CeedQFunction").user_flops = flops;
+  });
+}
+
+int CeedQFunctionGetFlopsEstimate(CeedQFunction qf, CeedSize *flops) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    hg::require(hg::deref(qf, "CeedQFunction").user_flops >= 0, CEED_ERROR_INCOMPLETE, [&] {
+      return hg::text("QFunction '%s' has no flops estimate; set one with CeedQFunctionSetUserFlopsEstimate()",
+                      qf->kernel_name.c_str());
+    });
+    *flops = qf->user_flops;
+  });
+}
+
+int CeedQFunctionSetNumViewTabs(CeedQFunction qf, CeedInt num_tabs) {
+  return CeedObjectSetNumViewTabs(reinterpret_cast<CeedObject>(qf), num_tabs);
+}
+
+int CeedQFunctionGetNumViewTabs(CeedQFunction qf, CeedInt *num_tabs) {
+  return CeedObjectGetNumViewTabs(reinterpret_cast<CeedObject>(qf), num_tabs);
+}
+
+int CeedQFunctionView(CeedQFunction qf, FILE *stream) {
+  return hg::guard(hg::ceed_of(qf), [&] { hg::deref(qf, "CeedQFunction").view(stream); });
+}
+
+int CeedQFunctionGetCeed(CeedQFunction qf, Ceed *ceed) {
+  return CeedObjectGetCeed(reinterpret_cast<CeedObject>(qf), ceed);
+}
+
+Ceed CeedQFunctionReturnCeed(CeedQFunction qf) { return hg::ceed_of(qf); }
+
+int CeedQFunctionApply(CeedQFunction qf, CeedInt Q, CeedVector *u, CeedVector *v) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    hg::deref(qf, "CeedQFunction");
+    hg::require(Q >= 0 && Q % qf->vec_length == 0, CEED_ERROR_DIMENSION, [&] {
+      return hg::text("QFunction '%s': %" CeedInt_FMT " points; expected a multiple of its vec_length %" CeedInt_FMT,
+                      qf->kernel_name.c_str(), Q, qf->vec_length);
+    });
+    const auto check_lengths = [&](const std::vector<CeedQFunctionField> &fields, const CeedVector *vectors) {
+      for (std::size_t i = 0; i < fields.size(); i++) {
+        const CeedSize needed = static_cast<CeedSize>(Q) * fields[i]->size;
+        const CeedSize length = hg::deref(vectors[i], "vector of a QFunction field").length;
+        hg::require(length >= needed, CEED_ERROR_DIMENSION, [&] {
+          return hg::text("QFunction '%s' field '%s': vector of length %" CeedSize_FMT "; expected at least %" CeedSize_FMT,
+                          qf->kernel_name.c_str(), fields[i]->name.c_str(), length, needed);
+        });
+      }
+    };
+    check_lengths(qf->input_list, u);
+    check_lengths(qf->output_list, v);
+    qf->is_immutable = true;
+    hg::check(qf->ceed->ops.qfunction.apply(qf, Q, u, v));
+  });
+}
+
+int CeedQFunctionGetVectorLength(CeedQFunction qf, CeedInt *vec_length) {
+  return hg::guard(hg::ceed_of(qf), [&] { *vec_length = hg::deref(qf, "CeedQFunction").vec_length; });
+}
+
+int CeedQFunctionGetNumArgs(CeedQFunction qf, CeedInt *num_input_fields, CeedInt *num_output_fields) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    if (num_input_fields != nullptr) {
+      *num_input_fields = static_cast<CeedInt>(hg::deref(qf, "CeedQFunction").input_list.size());
+    }
+    if (num_output_fields != nullptr) {
+      *num_output_fields = static_cast<CeedInt>(hg::deref(qf, "CeedQFunction").output_list.size());
+    }
+  });
+}
+
+int CeedQFunctionGetKernelName(CeedQFunction qf, const char **kernel_name) {
+  return hg::guard(hg::ceed_of(qf), [&] { *kernel_name = hg::deref(qf, "CeedQFunction").kernel_name.c_str(); });
+}
+
+int CeedQFunctionGetName(CeedQFunction qf, const char **name) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    const auto &f = hg::deref(qf, "CeedQFunction");
+    *name = f.gallery_name.empty() ? f.kernel_name.c_str() : f.gallery_name.c_str();
+  });
+}
+
+int CeedQFunctionGetSourcePath(CeedQFunction qf, const char **source_path) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    const auto &f = hg::deref(qf, "CeedQFunction");
+    *source_path = f.source_path.empty() ? nullptr : f.source_path.c_str();
+  });
+}
+
+int CeedQFunctionGetUserFunction(CeedQFunction qf, CeedQFunctionUser *f) {
+  return hg::guard(hg::ceed_of(qf), [&] { *f = hg::deref(qf, "CeedQFunction").function; });
+}
+
+int CeedQFunctionGetContext(CeedQFunction qf, CeedQFunctionContext *ctx) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    *ctx = hg::Ref<CeedQFunctionContext_private>(hg::deref(qf, "CeedQFunction").context).release();
+  });
+}
+
+int CeedQFunctionGetContextData(CeedQFunction qf, CeedMemType mem_type, void *data) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    const auto &f = hg::deref(qf, "CeedQFunction");
+    if (!f.context) {
+      *static_cast<void **>(data) = nullptr;
+    } else if (f.is_context_writable) {
+      hg::check(CeedQFunctionContextGetData(f.context.get(), mem_type, data));
+    } else {
+      hg::check(CeedQFunctionContextGetDataRead(f.context.get(), mem_type, data));
+    }
+  });
+}
+
+int CeedQFunctionRestoreContextData(CeedQFunction qf, void *data) {
+  return hg::guard(hg::ceed_of(qf), [&] {
+    const auto &f = hg::deref(qf, "CeedQFunction");
+    if (!f.context) return;
+    if (f.is_context_writable) {
+      hg::check(CeedQFunctionContextRestoreData(f.context.get(), data));
+    } else {
+      hg::check(CeedQFunctionContextRestoreDataRead(f.context.get(), data));
+    }
+  });
+}
+
+int CeedQFunctionIsIdentity(CeedQFunction qf, bool *is_identity) {
+  return hg::guard(hg::ceed_of(qf), [&] { *is_identity = hg::deref(qf, "CeedQFunction").is_identity; });
+}
+
+int CeedQFunctionIsContextWritable(CeedQFunction qf, bool *is_writable) {
+  return hg::guard(hg::ceed_of(qf), [&] { *is_writable = hg::deref(qf, "CeedQFunction").is_context_writable; });
+}
+
+int CeedQFunctionGetData(CeedQFunction qf, void *data) {
+  return hg::guard(hg::ceed_of(qf), [&] { *static_cast<void **>(data) = hg::deref(qf, "CeedQFunction").data; });
+}
+
+int CeedQFunctionSetData(CeedQFunction qf, void *data) {
+  return hg::guard(hg::ceed_of(qf), [&] { hg::deref(qf, "CeedQFunction").data = data; });
+}
+
+int CeedQFunctionIsImmutable(CeedQFunction qf, bool *is_immutable) {
+  return hg::guard(hg::ceed_of(qf), [&] { *is_immutable = hg::deref(qf, "CeedQFunction").is_immutable; });
+}
+
+int CeedQFunctionSetImmutable(CeedQFunction qf) {
+  return hg::guard(hg::ceed_of(qf), [&] { hg::deref(qf, "CeedQFunction").is_immutable = true; });
+}
+
+int CeedQFunctionFieldGetName(CeedQFunctionField qf_field, const char **field_name) {
+  *field_name = qf_field->name.c_str();
+  return CEED_ERROR_SUCCESS;
+}
+
+int CeedQFunctionFieldGetSize(CeedQFunctionField qf_field, CeedInt *size) {
+  *size = qf_field->size;
+  return CEED_ERROR_SUCCESS;
+}
+
+int CeedQFunctionFieldGetEvalMode(CeedQFunctionField qf_field, CeedEvalMode *eval_mode) {
+  *eval_mode = qf_field->eval_mode;
+  return CEED_ERROR_SUCCESS;
+}
+
+int CeedQFunctionFieldGetData(CeedQFunctionField qf_field, const char **field_name, CeedInt *size,
+                              CeedEvalMode *eval_mode) {
+  if (field_name != nullptr) *field_name = qf_field->name.c_str();
+  if (size != nullptr) *size = qf_field->size;
+  if (eval_mode != nullptr) *eval_mode = qf_field->eval_mode;
+  return CEED_ERROR_SUCCESS;
+}

@@ -1,0 +1,198 @@
+#include "registry.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
+
+#include "ceed.hpp"
+
+namespace hg {
+
+namespace {
+
+struct Registry {
+  std::recursive_mutex mutex;
+  bool is_loaded = false;
+  std::vector<RegistryEntry> entries;
+};
+
+Registry &the_registry() {
+  static Registry registry;
+  return registry;
+}
+
+/// Names that only libCEED has lead to the nearest of ours: their users' scripts run. The target is a request, not a
+/// backend: it resolves to whatever is there.
+std::string_view nearest_of_ours(std::string_view request) {
+  static const std::pair<std::string_view, std::string_view> foreign[] = {
+      {"/cpu/self/opt", "/cpu/self"},        {"/cpu/self/xsmm", "/cpu/self"},  {"/cpu/self/ref/blocked", "/cpu/self/ref"},
+      {"/gpu/cuda/shared", "/gpu/cuda/gen"}, {"/gpu/hip/shared", "/gpu/hip/gen"},
+      {"/cpu/self/memcheck/blocked", "/cpu/self/memcheck"},
+  };
+  for (const auto &[theirs, ours] : foreign) {
+    if (request.substr(0, theirs.size()) == theirs) return ours;
+  }
+  return request;
+}
+
+/// Length of the prefix of `name` that `request` matches, in whole path components: "/cpu/self/re" is no prefix of
+/// "/cpu/self/ref". The request must match to its end or to a component that the backend does not have.
+std::size_t common_prefix(std::string_view request, std::string_view name) {
+  std::size_t matched = 0;
+  for (std::size_t i = 0;; i++) {
+    const bool request_ends = i == request.size() || request[i] == '/';
+    const bool name_ends = i == name.size() || name[i] == '/';
+    if (request_ends && name_ends) matched = i;
+    if (i == request.size() || i == name.size() || request[i] != name[i]) return matched;
+  }
+}
+
+std::string resource_list() {
+  std::string list;
+  for (const auto &entry : registry()) list += std::string("\n  ") + entry.resource;
+  return list;
+}
+
+}  // namespace
+
+std::vector<RegistryEntry> registry() {
+  Registry &registry = the_registry();
+  const std::lock_guard lock(registry.mutex);
+  if (!registry.is_loaded) {
+    registry.is_loaded = true;
+    for (const CeedPluginEntry entry : built_in_plugins()) register_plugin(*entry());
+    load_plugins_in_search_path();
+  }
+  return registry.entries;
+}
+
+void register_plugin(const CeedPlugin &plugin) {
+  require(plugin.api_version == CEED_PLUGIN_API_VERSION, CEED_ERROR_INCOMPATIBLE, [&] {
+    return text("Plugin '%s' is for plugin API version %u; this library has version %u", plugin.name,
+                plugin.api_version, CEED_PLUGIN_API_VERSION);
+  });
+  require(plugin.size >= sizeof(CeedPlugin), CEED_ERROR_INCOMPATIBLE, [&] {
+    return text("Plugin '%s' describes itself in %zu bytes; expected at least %zu", plugin.name, plugin.size,
+                sizeof(CeedPlugin));
+  });
+  Registry &registry = the_registry();
+  const std::lock_guard lock(registry.mutex);
+  std::vector<RegistryEntry> entries = registry.entries;
+  const auto add = [&](const char *resource, const CeedBackend &backend) {
+    require(resource != nullptr && resource[0] == '/', CEED_ERROR_MINOR, [&] {
+      return text("Plugin '%s' names a resource '%s'; expected one that starts with '/'", plugin.name,
+                  resource != nullptr ? resource : "(null)");
+    });
+    for (const auto &entry : entries) {
+      require(std::strcmp(entry.resource, resource) != 0, CEED_ERROR_MINOR, [&] {
+        return text("Resource '%s' of plugin '%s' is there already, from plugin '%s'", resource, plugin.name,
+                    entry.plugin);
+      });
+    }
+    entries.push_back({resource, &backend, plugin.name});
+  };
+  for (std::size_t i = 0; i < plugin.num_backends; i++) {
+    const CeedBackend &backend = plugin.backends[i];
+    require(backend.init != nullptr, CEED_ERROR_MINOR,
+            [&] { return text("Backend '%s' of plugin '%s' has no init", backend.resource, plugin.name); });
+    add(backend.resource, backend);
+    for (const char *const *alias = backend.aliases; alias != nullptr && *alias != nullptr; alias++) add(*alias, backend);
+  }
+  registry.entries = std::move(entries);
+}
+
+int score_of(const CeedBackend &backend, std::string &reason) {
+  if (backend.score == nullptr) return 1;
+  const char *why = nullptr;
+  const int score = backend.score(&why);
+  reason = why != nullptr ? why : "";
+  return score;
+}
+
+const CeedBackend &find_backend(std::string_view request) {
+  const std::string_view wanted = nearest_of_ours(request);
+  const auto entries = registry();
+  std::size_t longest = 0;
+  for (const auto &entry : entries) longest = std::max(longest, common_prefix(wanted, entry.resource));
+  const CeedBackend *best = nullptr;
+  std::string unavailable;
+  for (const auto &entry : entries) {
+    if (longest == 0 || common_prefix(wanted, entry.resource) != longest) continue;
+    std::string reason;
+    if (score_of(*entry.backend, reason) <= 0) {
+      unavailable += std::string("\n  ") + entry.resource + " is not available on this machine: " + reason;
+      continue;
+    }
+    if (best == nullptr || entry.backend->priority < best->priority) best = entry.backend;
+  }
+  // "/gpu/cuda" must not end on a host backend, so a match has at least two components ("/cpu/self"), or the request
+  // has only one.
+  const auto components = [](std::string_view name) { return std::count(name.begin(), name.end(), '/'); };
+  const bool is_close = longest > 0 && (components(wanted.substr(0, longest)) >= 2 || components(wanted) < 2);
+  require(best != nullptr && is_close, CEED_ERROR_MAJOR, [&] {
+    return text("No suitable backend: %.*s%s\nAvailable backend resources:%s", static_cast<int>(request.size()),
+                request.data(), unavailable.c_str(), resource_list().c_str());
+  });
+  return *best;
+}
+
+const CeedBackend &backend_named(std::string_view resource) {
+  for (const auto &entry : registry()) {
+    if (resource == entry.backend->resource) return *entry.backend;
+  }
+  throw Error(CEED_ERROR_MAJOR, text("No backend has the name '%.*s'\nAvailable backend resources:%s",
+                                     static_cast<int>(resource.size()), resource.data(), resource_list().c_str()));
+}
+
+void fill_tables(Ceed ceed, const CeedBackend &backend, const char *options) {
+  if (backend.parent != nullptr) {
+    require(std::strcmp(backend.parent, backend.resource) != 0, CEED_ERROR_MAJOR,
+            [&] { return text("Backend '%s' names itself as its parent", backend.resource); });
+    fill_tables(ceed, backend_named(backend.parent), "");
+  }
+  ceed->ops.size = sizeof(CeedBackendOps);
+  ceed->ops.api_version = CEED_PLUGIN_API_VERSION;
+  check(backend.init(ceed, options, &ceed->ops));
+}
+
+}  // namespace hg
+
+int CeedRegistryGetList(size_t *n, char ***const resources, CeedInt **array) {
+  return hg::guard(nullptr, [&] {
+    const auto entries = hg::registry();
+    *n = entries.size();
+    char **names = nullptr;
+    CeedInt *priorities = nullptr;
+    if (resources != nullptr) {
+      names = static_cast<char **>(std::malloc(entries.size() * sizeof(char *)));
+      if (names == nullptr) throw std::bad_alloc();
+      for (std::size_t i = 0; i < entries.size(); i++) names[i] = const_cast<char *>(entries[i].resource);
+    }
+    if (array != nullptr) {
+      priorities = static_cast<CeedInt *>(std::malloc(entries.size() * sizeof(CeedInt)));
+      if (priorities == nullptr) {
+        std::free(names);
+        throw std::bad_alloc();
+      }
+      for (std::size_t i = 0; i < entries.size(); i++) {
+        priorities[i] = static_cast<CeedInt>(entries[i].backend->priority);
+      }
+    }
+    if (resources != nullptr) *resources = names;
+    if (array != nullptr) *array = priorities;
+  });
+}
+
+int CeedRegisterAll(void) {
+  return hg::guard(nullptr, [] { hg::registry(); });
+}
+
+int CeedPluginRegister(const CeedPlugin *plugin) {
+  return hg::guard(nullptr, [&] {
+    hg::require(plugin != nullptr, CEED_ERROR_MINOR, "Plugin is NULL; expected a description");
+    hg::registry();
+    hg::register_plugin(*plugin);
+  });
+}

@@ -1,0 +1,39 @@
+/// @file
+/// The list of backends: built-in and loaded, found by prefix and priority.
+#pragma once
+
+#include <ceed/plugin.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hg {
+
+/// A resource name under which a backend can be asked for.
+struct RegistryEntry {
+  const char *resource = nullptr;        ///< an alias or the backend's own name; the plugin keeps the text
+  const CeedBackend *backend = nullptr;
+  const char *plugin = nullptr;          ///< name of the plugin it came with
+};
+
+/// All entries as they are now; loads the plugins on first use.
+std::vector<RegistryEntry> registry();
+/// Adds the backends of a plugin. Throws if its version or a name in it does not fit; then nothing is added.
+void register_plugin(const CeedPlugin &plugin);
+/// The backend for a request: longest common prefix, then a positive score, then lowest priority. Throws
+/// CEED_ERROR_MAJOR with the list of resources where none fits.
+const CeedBackend &find_backend(std::string_view request);
+/// The backend with this very name, own name only. Throws where there is none.
+const CeedBackend &backend_named(std::string_view resource);
+/// Score of the backend on this machine; `reason` says why it is 0.
+int score_of(const CeedBackend &backend, std::string &reason);
+/// Tables of a backend: its ancestors' inits are applied in turn to `ceed`.
+void fill_tables(Ceed ceed, const CeedBackend &backend, const char *options);
+
+/// Entries of the plugins that are part of the library (made by CMake from ceed_add_backend()).
+std::vector<CeedPluginEntry> built_in_plugins();
+/// Loads every plugin library in the search path: beside the core library, then CEED_PLUGIN_PATH.
+void load_plugins_in_search_path();
+
+}  // namespace hg
