@@ -26,7 +26,7 @@ namespace hg {
 struct MeshOptions {
   PetscInt order = 1;  ///< of the displacement space, 1 to 8
   /// Moves each vertex once after the mesh is made (x[3] in, x[3] out); for tests on distorted cells.
-  std::function<void(double *)> deform;
+  std::function<void(double *)> deform = nullptr;
 };
 
 /// A nodal space of any order and number of components without constraints, for projections, stresses, output.
@@ -85,13 +85,14 @@ struct Mesh {
   const std::vector<CeedInt> &node_offsets() const { return offsets_u_; }
 
   /// Constrains components of the displacement nodes: constrained[3 * node + c] != 0, `node` counting as in
-  /// node_coordinates(order). Must be the same on every rank that has the node. Collective; replaces earlier constraints.
+  /// node_coordinates(order). Must be the same on every rank that has the node. Collective; replaces earlier constraints
+  /// and `dm` itself (local vectors keep their layout, global vectors made before do not fit any more).
   void constrain(std::span<const char> constrained);
   /// The constraints in force: 3 * (number of local nodes) entries, empty when none were set.
   const std::vector<char> &constraints() const { return constrained_; }
 
-  /// Local nodes of space(space_order, ·) on the closure of the mesh points with this label value, on this rank's own
-  /// points only (not yet shared with other ranks); as node numbers.
+  /// Node numbers, ascending, of the local nodes of space(space_order, ·) on the faces and cells with this label value and
+  /// on their edges and vertices. A face that only another rank has is not seen: a node of it may be missing here.
   std::vector<PetscInt> nodes_on(PetscInt space_order, const std::string &label, PetscInt value) const;
 
   /// Sums a local array with `width` entries for each node of space(space_order, ·) over ranks and returns sums to all.
@@ -100,7 +101,13 @@ struct Mesh {
  private:
   SectionHandle make_section(PetscInt space_order, CeedInt num_comp, std::span<const char> constrained) const;
   std::vector<CeedInt> make_offsets(PetscSection section, PetscInt space_order, CeedInt num_comp) const;
-  void read_geometry();
+  CeedElemRestrictionHandle make_restriction(const std::vector<CeedInt> &offsets, PetscInt space_order,
+                                             CeedInt num_comp, PetscInt size) const;
+  void read_topology();
+  void read_geometry(const std::function<void(double *)> &deform);
+  void find_faces();
+
+  DmHandle base_;  ///< the mesh alone, without a section
 
   std::vector<CeedInt> offsets_u_;
   std::vector<char> constrained_;

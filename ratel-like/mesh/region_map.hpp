@@ -18,16 +18,19 @@ class RegionMap {
 
   int num_regions() const { return static_cast<int>(regions_.size()); }
   const Region &region(int index) const { return regions_[index]; }
-  /// Region of a local cell: by its label, or its centroid in a box. Error if no region takes it.
+  /// Region of a local cell: by its label, or its centroid in a box; -1 if no region takes it.
   int of_cell(CeedInt cell) const { return of_cell_[cell]; }
-  /// Region of a point at x[3] in local cell `cell`: by the cell's label, or the point in a box.
+  /// Region of a point at x[3] in local cell `cell`: by the cell's label, or the point in a box; -1 if none takes it.
   int of_point(CeedInt cell, std::span<const double, 3> x) const;
   /// Local cells of a region, ascending.
   const std::vector<CeedInt> &cells(int region) const { return cells_[region]; }
+  /// Error unless every cell has a region, as finite elements need.
+  void require_all_cells() const;
 
  private:
   int find(CeedInt cell, std::span<const double, 3> x) const;
 
+  const Mesh &mesh_;
   std::vector<Region> regions_;
   std::vector<std::vector<char>> labelled_;  ///< for each region with a label: a flag for each local cell
   std::vector<int> of_cell_;

@@ -59,7 +59,7 @@ class OptionGroup {
   /// "-sinker_nu" for name "nu".
   std::string full(const char *name) const;
   const std::string &prefix() const { return prefix_; }
-  /// Prints the title and each option once if -help was given.
+  /// Whether -help was given: options are printed and none is required.
   bool helping() const { return help_; }
 
  private:
@@ -72,24 +72,24 @@ class OptionGroup {
 
 enum class Method { fem, mpm };
 
-/// A part of the body with its own material. Exactly one region may have neither label nor box: it takes the rest.
+/// A part of the body with its own material. At most one region has neither label nor box: it takes the rest.
 struct Region {
-  std::string name;                  ///< as given in -material; "" for the only region of a run without -material
-  std::string prefix;                ///< of its options: "sinker_", or "" for the only region of a run without -material
-  std::string label_name;            ///< mesh label that selects its cells; "" when not selected by label
-  std::vector<PetscInt> label_values;
-  std::optional<std::array<double, 6>> box;  ///< x0,y0,z0,x1,y1,z1, both ends inside [m]
+  std::string name = {};                  ///< as given in -material; "" for the only region of a run without -material
+  std::string prefix = {};                ///< of its options: "sinker_", or "" for the only region of a run without -material
+  std::string label_name = {};            ///< mesh label that selects its cells; "" when not selected by label
+  std::vector<PetscInt> label_values = {};
+  std::optional<std::array<double, 6>> box = {};  ///< x0,y0,z0,x1,y1,z1, both ends inside [m]
 
   bool takes_rest() const { return label_name.empty() && !box; }
 };
 
-/// Times and values of a load; see load_factor.
+/// How a load goes from one given time to the next; see vector_at.
 enum class Ramp { step, linear };
 
 /// Body force per unit of mass, ρ₀ g(t), g in m/s².
 struct BodyForce {
   enum class Kind { none, body, mms } kind = Kind::none;
-  std::vector<double> times;                 ///< [s]; empty: a linear ramp from 0 at t = 0 to `vectors[0]` at the last time
+  std::vector<double> times;                   ///< [s], ascending; -ts_max_time when not given
   std::vector<std::array<double, 3>> vectors;  ///< one for each time
   Ramp ramp = Ramp::linear;
 };
@@ -106,8 +106,8 @@ struct RunOptions {
   static RunOptions read(MPI_Comm comm);
 };
 
-/// Piecewise interpolation of 3-vectors over time: linear between times, or the value of the last time passed (step).
-/// Before the first time: linear from zero at t = 0; after the last time: its value.
+/// A 3-vector given at ascending times, at time t. Linear: through zero at t = 0 and the vectors at their times. Step: the
+/// vector of the first time that is not before t. After the last time both keep its vector.
 std::array<double, 3> vector_at(const std::vector<double> &times, const std::vector<std::array<double, 3>> &vectors,
                                 Ramp ramp, double t);
 
