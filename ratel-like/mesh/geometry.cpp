@@ -8,8 +8,8 @@ namespace hg {
 
 namespace {
 
-// DMPlex lists the vertices of a hexahedron as its low face seen from below, then its high face seen from above; this is
-// the place of each tensor-ordered corner in that list.
+// DMPlex lists the vertices of a hexahedron as its low face seen from below, then its high face seen from above; this
+// is the place of each tensor-ordered corner in that list.
 constexpr int plex_corner[8] = {0, 3, 1, 2, 4, 5, 7, 6};
 
 // det ∂x/∂X at a corner of the trilinear cell, from the three edges that meet there.

@@ -115,8 +115,8 @@ const MeshSpace &Mesh::space(PetscInt space_order, CeedInt num_comp) const {
     SectionHandle section = make_section(space_order, num_comp, {});
     petsc_check(DMSetLocalSection(space->dm, section));
     petsc_check(PetscSectionGetStorageSize(section, &space->local_size));
-    space->rstr = make_restriction(make_offsets(section, space_order, num_comp), space_order, num_comp,
-                                   space->local_size);
+    space->rstr =
+        make_restriction(make_offsets(section, space_order, num_comp), space_order, num_comp, space->local_size);
   }
   return *space;
 }

@@ -2,9 +2,9 @@
 /// The mesh of a run: hexahedra in a non-overlapping DMPlex, with order-p nodal spaces and their CEED restrictions.
 ///
 /// Reference cell [-1,1]^3. A cell's corners are numbered in tensor order, corner a + 2b + 4c at reference coordinates
-/// (2a-1, 2b-1, 2c-1), and the frame is right-handed (det ∂x/∂X > 0). Nodes of a space of order p are the tensor product of
-/// p+1 Gauss-Lobatto points, numbered x fastest, in the same frame as the corners; both come from the cell's eight
-/// vertices, so they cannot differ. The geometry is trilinear.
+/// (2a-1, 2b-1, 2c-1), and the frame is right-handed (det ∂x/∂X > 0). Nodes of a space of order p are the tensor
+/// product of p+1 Gauss-Lobatto points, numbered x fastest, in the same frame as the corners; both come from the cell's
+/// eight vertices, so they cannot differ. The geometry is trilinear.
 #pragma once
 
 #include <ceed.h>
@@ -30,7 +30,8 @@ struct MeshOptions {
 };
 
 /// A nodal space of any order and number of components without constraints, for projections, stresses, output.
-/// Local vectors of `dm` hold num_comp values for each local node, next to each other; global vectors hold each node once.
+/// Local vectors of `dm` hold num_comp values for each local node, next to each other; global vectors hold each node
+/// once.
 struct MeshSpace {
   PetscInt order = 1;
   CeedInt num_comp = 1;
@@ -50,22 +51,22 @@ struct Mesh {
   Mesh &operator=(const Mesh &) = delete;
 
   MPI_Comm comm;
-  Ceed ceed;             ///< borrowed, must outlive the mesh
-  DmHandle dm;           ///< displacement space: 3 components, order p, Dirichlet constraints in its section
+  Ceed ceed;    ///< borrowed, must outlive the mesh
+  DmHandle dm;  ///< displacement space: 3 components, order p, Dirichlet constraints in its section
   PetscInt order;
-  CeedInt num_cells = 0;      ///< local cells; cell c is mesh point cell_start + c
+  CeedInt num_cells = 0;  ///< local cells; cell c is mesh point cell_start + c
   PetscInt cell_start = 0;
   PetscInt num_cells_global = 0;
-  PetscInt local_size = 0;    ///< length of a local displacement vector, constrained entries included
+  PetscInt local_size = 0;  ///< length of a local displacement vector, constrained entries included
 
   CeedElemRestrictionHandle rstr_u;  ///< num_cells × (p+1)^3 × 3, comp_stride 1, L-vector = local vector of dm
   CeedElemRestrictionHandle rstr_x;  ///< num_cells × 8 × 3, comp_stride 1, L-vector = `x`
   CeedVectorHandle x;                ///< coordinates of the local vertices
 
-  std::vector<double> corner_coords;   ///< num_cells × 8 × 3, tensor order
-  std::vector<PetscInt> vertices;      ///< num_cells × 8 mesh points, tensor order
-  std::vector<PetscInt> faces;         ///< num_cells × 6 mesh points: x low, x high, y low, y high, z low, z high
-  std::vector<PetscInt> neighbours;    ///< num_cells × 6 local cells across `faces`, -1 if none on this rank
+  std::vector<double> corner_coords;  ///< num_cells × 8 × 3, tensor order
+  std::vector<PetscInt> vertices;     ///< num_cells × 8 mesh points, tensor order
+  std::vector<PetscInt> faces;        ///< num_cells × 6 mesh points: x low, x high, y low, y high, z low, z high
+  std::vector<PetscInt> neighbours;   ///< num_cells × 6 local cells across `faces`, -1 if none on this rank
 
   std::span<const double, 24> corners(CeedInt cell) const {
     return std::span<const double, 24>(corner_coords.data() + 24 * static_cast<std::size_t>(cell), 24);
@@ -85,14 +86,14 @@ struct Mesh {
   const std::vector<CeedInt> &node_offsets() const { return offsets_u_; }
 
   /// Constrains components of the displacement nodes: constrained[3 * node + c] != 0, `node` counting as in
-  /// node_coordinates(order). Must be the same on every rank that has the node. Collective; replaces earlier constraints
-  /// and `dm` itself (local vectors keep their layout, global vectors made before do not fit any more).
+  /// node_coordinates(order). Must be the same on every rank that has the node. Collective; replaces earlier
+  /// constraints and `dm` itself (local vectors keep their layout, global vectors made before do not fit any more).
   void constrain(std::span<const char> constrained);
   /// The constraints in force: 3 * (number of local nodes) entries, empty when none were set.
   const std::vector<char> &constraints() const { return constrained_; }
 
-  /// Node numbers, ascending, of the local nodes of space(space_order, ·) on the faces and cells with this label value and
-  /// on their edges and vertices. A face that only another rank has is not seen: a node of it may be missing here.
+  /// Node numbers, ascending, of the local nodes of space(space_order, ·) on the faces and cells with this label value
+  /// and on their edges and vertices. A face that only another rank has is not seen: a node of it may be missing here.
   std::vector<PetscInt> nodes_on(PetscInt space_order, const std::string &label, PetscInt value) const;
 
   /// Sums a local array with `width` entries for each node of space(space_order, ·) over ranks and returns sums to all.

@@ -62,7 +62,9 @@ int RegionMap::find(CeedInt cell, std::span<const double, 3> x) const {
   return rest;
 }
 
-int RegionMap::of_point(CeedInt cell, std::span<const double, 3> x) const { return find(cell, x); }
+int RegionMap::of_point(CeedInt cell, std::span<const double, 3> x) const {
+  return find(cell, x);
+}
 
 void RegionMap::require_all_cells() const {
   PetscInt without = std::count(of_cell_.begin(), of_cell_.end(), -1), total = 0;

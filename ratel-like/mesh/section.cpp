@@ -1,8 +1,8 @@
 // Nodes of an order-p space: how many each mesh point owns, and where a cell's tensor-ordered nodes lie among them.
 //
-// A vertex owns one node, an edge p-1, a quadrilateral (p-1)², a cell (p-1)³. An edge counts its nodes from the first to
-// the second vertex of its cone; a face counts them in its own frame (from its first vertex, fastest towards the second).
-// Cones travel unchanged when a mesh is distributed, so every cell and every rank agrees on that order.
+// A vertex owns one node, an edge p-1, a quadrilateral (p-1)², a cell (p-1)³. An edge counts its nodes from the first
+// to the second vertex of its cone; a face counts them in its own frame (from its first vertex, fastest towards the
+// second). Cones travel unchanged when a mesh is distributed, so every cell and every rank agrees on that order.
 #include <algorithm>
 
 #include "mesh/mesh.hpp"

@@ -57,10 +57,16 @@ void fail(const char *format, ...) {
   throw Error(text);
 }
 
-PetscErrorScope::PetscErrorScope() { petsc_check(PetscPushErrorHandler(keep_petsc_error, nullptr)); }
-PetscErrorScope::~PetscErrorScope() { (void)PetscPopErrorHandler(); }
+PetscErrorScope::PetscErrorScope() {
+  petsc_check(PetscPushErrorHandler(keep_petsc_error, nullptr));
+}
+PetscErrorScope::~PetscErrorScope() {
+  (void)PetscPopErrorHandler();
+}
 
-void keep_ceed_errors(Ceed ceed) { ceed_check(CeedSetErrorHandler(ceed, keep_ceed_error)); }
+void keep_ceed_errors(Ceed ceed) {
+  ceed_check(CeedSetErrorHandler(ceed, keep_ceed_error));
+}
 
 void throw_petsc(int code, const std::source_location &where) {
   std::string message = std::exchange(petsc_message, {});

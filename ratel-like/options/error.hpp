@@ -1,10 +1,10 @@
 /// @file
 /// The one way in which the mechanics layer reports that it cannot go on.
 ///
-/// Functions of namespace hg throw hg::Error. Calls into PETSc and into CEED go through petsc_check and ceed_check, which
-/// turn an error code into an hg::Error that carries the library's own innermost message. A function that PETSc calls
-/// back (SNES residual, MatShell product, monitor) has its body in guard, which turns an exception into an error code.
-/// The program prints the message once and ends with a non-zero status.
+/// Functions of namespace hg throw hg::Error. Calls into PETSc and into CEED go through petsc_check and ceed_check,
+/// which turn an error code into an hg::Error that carries the library's own innermost message. A function that PETSc
+/// calls back (SNES residual, MatShell product, monitor) has its body in guard, which turns an exception into an error
+/// code. The program prints the message once and ends with a non-zero status.
 #pragma once
 
 #include <ceed.h>
@@ -42,12 +42,14 @@ void keep_ceed_errors(Ceed ceed);
 
 /// Throws Error if a PETSc call failed: `petsc_check(VecSet(x, 0.));`
 inline void petsc_check(PetscErrorCode code, const std::source_location &where = std::source_location::current()) {
-  if (code) [[unlikely]] throw_petsc(static_cast<int>(code), where);
+  if (code) [[unlikely]]
+    throw_petsc(static_cast<int>(code), where);
 }
 
 /// Throws Error if a CEED call failed: `ceed_check(CeedVectorSetValue(x, 0.));`
 inline void ceed_check(int code, const std::source_location &where = std::source_location::current()) {
-  if (code) [[unlikely]] throw_ceed(code, where);
+  if (code) [[unlikely]]
+    throw_ceed(code, where);
 }
 
 /// Reports an exception's message to PETSc and returns a PETSc error code; for guard.

@@ -61,7 +61,9 @@ OptionGroup::OptionGroup(MPI_Comm comm, std::string prefix, std::string title)
   help_ = help;
 }
 
-std::string OptionGroup::full(const char *name) const { return std::string("-").append(prefix_).append(name); }
+std::string OptionGroup::full(const char *name) const {
+  return std::string("-").append(prefix_).append(name);
+}
 
 bool OptionGroup::given(const char *name) const {
   PetscBool set = PETSC_FALSE;

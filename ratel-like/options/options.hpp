@@ -2,7 +2,8 @@
 /// Options of a run. PETSc's option database is the only parser; this adds defaults, help text and checks in one call.
 ///
 ///     OptionGroup group(comm, "sinker_", "Material sinker");
-///     double nu = group.real("nu", "Poisson's ratio", 0.3, {.min = -1, .max = 0.5, .min_open = true, .max_open = true});
+///     double nu = group.real("nu", "Poisson's ratio", 0.3, {.min = -1, .max = 0.5, .min_open = true, .max_open =
+///     true});
 ///
 /// With -help every option is printed with its default and its text. A value out of its range throws hg::Error with the
 /// option's full name, the value, and what was expected.
@@ -33,8 +34,9 @@ struct Range {
   std::string text() const;
 };
 
-/// One titled group of options that share a prefix: option `name` of prefix `sinker_` is `-sinker_name`. Names are given
-/// without the leading dash. Collective: every rank reads the same database and gets the same values or the same Error.
+/// One titled group of options that share a prefix: option `name` of prefix `sinker_` is `-sinker_name`. Names are
+/// given without the leading dash. Collective: every rank reads the same database and gets the same values or the same
+/// Error.
 class OptionGroup {
  public:
   OptionGroup(MPI_Comm comm, std::string prefix, std::string title);
@@ -74,9 +76,9 @@ enum class Method { fem, mpm };
 
 /// A part of the body with its own material. At most one region has neither label nor box: it takes the rest.
 struct Region {
-  std::string name = {};                  ///< as given in -material; "" for the only region of a run without -material
-  std::string prefix = {};                ///< of its options: "sinker_", or "" for the only region of a run without -material
-  std::string label_name = {};            ///< mesh label that selects its cells; "" when not selected by label
+  std::string name = {};        ///< as given in -material; "" for the only region of a run without -material
+  std::string prefix = {};      ///< of its options: "sinker_", or "" for the only region of a run without -material
+  std::string label_name = {};  ///< mesh label that selects its cells; "" when not selected by label
   std::vector<PetscInt> label_values = {};
   std::optional<std::array<double, 6>> box = {};  ///< x0,y0,z0,x1,y1,z1, both ends inside [m]
 
@@ -97,17 +99,17 @@ struct BodyForce {
 /// What a run is made of, apart from what each room reads for itself (mesh, materials, points, boundary, output).
 struct RunOptions {
   Method method = Method::fem;
-  std::string ceed;          ///< CEED resource
-  PetscInt order = 1;        ///< polynomial order p of the displacement, 1 to 8
-  PetscInt q_extra = 0;      ///< quadrature points in each direction: order + 1 + q_extra
+  std::string ceed;             ///< CEED resource
+  PetscInt order = 1;           ///< polynomial order p of the displacement, 1 to 8
+  PetscInt q_extra = 0;         ///< quadrature points in each direction: order + 1 + q_extra
   std::vector<Region> regions;  ///< at least one, in the order of -material
   BodyForce forcing;
 
   static RunOptions read(MPI_Comm comm);
 };
 
-/// A 3-vector given at ascending times, at time t. Linear: through zero at t = 0 and the vectors at their times. Step: the
-/// vector of the first time that is not before t. After the last time both keep its vector.
+/// A 3-vector given at ascending times, at time t. Linear: through zero at t = 0 and the vectors at their times. Step:
+/// the vector of the first time that is not before t. After the last time both keep its vector.
 std::array<double, 3> vector_at(const std::vector<double> &times, const std::vector<std::array<double, 3>> &vectors,
                                 Ramp ramp, double t);
 

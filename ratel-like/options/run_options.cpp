@@ -22,9 +22,9 @@ Region read_region(MPI_Comm comm, const std::string &name) {
     fail("option %s is missing: %s names the label '%s' and needs its values", group.full("label_value").c_str(),
          group.full("label_name").c_str(), label.c_str());
   }
-  const std::vector<double> box = group.reals(
-      "region_box", "x0,y0,z0,x1,y1,z1 of a box that selects cells by their centroid, points by their place [m]", {},
-      -1);
+  const std::vector<double> box =
+      group.reals("region_box",
+                  "x0,y0,z0,x1,y1,z1 of a box that selects cells by their centroid, points by their place [m]", {}, -1);
   if (!box.empty()) {
     if (box.size() != 6) {
       fail("option %s: %zu numbers, expected 6 (x0,y0,z0,x1,y1,z1)", group.full("region_box").c_str(), box.size());
@@ -38,8 +38,8 @@ Region read_region(MPI_Comm comm, const std::string &name) {
       }
     }
     if (!region.label_name.empty()) {
-      fail("region %s: both %s and %s are given, expected one of them", name.c_str(),
-           group.full("region_box").c_str(), group.full("label_value").c_str());
+      fail("region %s: both %s and %s are given, expected one of them", name.c_str(), group.full("region_box").c_str(),
+           group.full("label_value").c_str());
     }
   }
   return region;
@@ -61,9 +61,9 @@ BodyForce read_forcing(MPI_Comm comm) {
   const std::vector<double> flat = group.reals("forcing_body_vector", "x,y,z of g for each time [m/s^2]", {}, -1);
   const std::vector<double> times =
       group.reals("forcing_body_times", "time of each vector, ascending [s]; default: -ts_max_time", {final_time}, -1);
-  const std::string ramp = group.choice(
-      "forcing_body_interpolation", "between the times: linear (from 0 at t = 0), or step: the next time's vector",
-      {"linear", "step"}, "linear");
+  const std::string ramp = group.choice("forcing_body_interpolation",
+                                        "between the times: linear (from 0 at t = 0), or step: the next time's vector",
+                                        {"linear", "step"}, "linear");
   if (kind == "none") return force;
   if (flat.empty() || flat.size() % 3 != 0) {
     fail("option -forcing_body_vector: %zu numbers, expected 3 for each time", flat.size());
@@ -79,7 +79,8 @@ BodyForce read_forcing(MPI_Comm comm) {
   force.kind = BodyForce::Kind::body;
   force.times = times;
   force.ramp = ramp == "step" ? Ramp::step : Ramp::linear;
-  for (std::size_t i = 0; i < times.size(); ++i) force.vectors.push_back({flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]});
+  for (std::size_t i = 0; i < times.size(); ++i)
+    force.vectors.push_back({flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]});
   return force;
 }
 

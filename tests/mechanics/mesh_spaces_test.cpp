@@ -73,10 +73,10 @@ double largest_node_mismatch(const Mesh &mesh, PetscInt p) {
   return worst;
 }
 
-// A field at the quadrature points of every cell, through an operator whose QFunction copies: value i of `size` at point q
-// of cell c is at (c * size + i) * num_q + q.
-std::vector<double> at_points(const Mesh &mesh, CeedElemRestriction rstr, CeedBasis basis, CeedEvalMode mode, CeedInt size,
-                              CeedVector l) {
+// A field at the quadrature points of every cell, through an operator whose QFunction copies: value i of `size` at
+// point q of cell c is at (c * size + i) * num_q + q.
+std::vector<double> at_points(const Mesh &mesh, CeedElemRestriction rstr, CeedBasis basis, CeedEvalMode mode,
+                              CeedInt size, CeedVector l) {
   CeedInt num_q;
   ceed_check(CeedBasisGetNumQuadraturePoints(basis, &num_q));
   const CeedSize total = static_cast<CeedSize>(mesh.num_cells) * size * num_q;
@@ -337,8 +337,9 @@ TEST(Mesh, BadInputIsNamed) {
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank == 0) {
     std::FILE *file = std::fopen(name.c_str(), "w");
-    std::fprintf(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
-                       "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n");
+    std::fprintf(file,
+                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+                 "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n");
     std::fclose(file);
   }
   MPI_Barrier(PETSC_COMM_WORLD);
