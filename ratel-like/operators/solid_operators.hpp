@@ -49,7 +49,7 @@ class SolidOperators {
   /// f = ∫ v · ρ g with ρ = ρ₀/J_n on the mesh of this step and acceleration g. f is overwritten.
   void body_force(const std::array<double, 3> &acceleration, CeedVector f);
 
-  /// f = ∫ v · (−∇·σ(u_mms)), the body force of the manufactured solution in qfunctions/bc/mms-linear.h times
+  /// f = ∫ v · (−∇·σ(u_mms)), the body force of the manufactured solution in qfunctions/bc/mms_linear.h times
   /// `factor`. f is overwritten.
   void mms_force(double factor, CeedVector f);
 
