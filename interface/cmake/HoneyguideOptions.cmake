@@ -17,7 +17,8 @@ option(HONEYGUIDE_COVERAGE "Instrument for line coverage" OFF)
 
 # Every target of ours links this: warnings, sanitizers, coverage. It is never exported.
 add_library(hg_build_flags INTERFACE)
-target_compile_options(hg_build_flags INTERFACE -Wall -Wextra $<$<BOOL:${HONEYGUIDE_WERROR}>:-Werror>)
+target_compile_options(hg_build_flags INTERFACE -Wall -Wextra $<$<BOOL:${HONEYGUIDE_WERROR}>:-Werror>
+                       $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>)
 if(HONEYGUIDE_SANITIZE)
   target_compile_options(hg_build_flags INTERFACE -fsanitize=${HONEYGUIDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(hg_build_flags INTERFACE -fsanitize=${HONEYGUIDE_SANITIZE})

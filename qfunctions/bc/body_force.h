@@ -11,7 +11,8 @@ typedef struct {
 } HgBodyForceContext;
 
 /// in: q_data (10), F (9), rho (1); out: v (3)
-CEED_QFUNCTION(HgBodyForce)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgBodyForce)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   const HgBodyForceContext *context = (const HgBodyForceContext *)ctx;
   const CeedScalar *q_data = in[0], *F = in[1], *rho = in[2];
   CeedScalar *v = out[0];

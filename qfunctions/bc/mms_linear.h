@@ -16,15 +16,17 @@ typedef struct {
 } HgMmsLinearContext;
 
 /// u (3) at x (3)
-CEED_QFUNCTION_HELPER void hg_mms_linear_displacement(const CeedScalar *x, CeedScalar amplitude, CeedScalar *u) {
+CEED_QFUNCTION_HELPER
+void hg_mms_linear_displacement(const CeedScalar *x, CeedScalar amplitude, CeedScalar *u) {
   const CeedScalar two_pi = 6.283185307179586476925;
   const CeedScalar s = -cos(two_pi * x[0]) * cos(two_pi * x[1]) * cos(two_pi * x[2]);
   for (CeedInt c = 0; c < 3; c++) u[c] = (c + 1) * amplitude * s;
 }
 
 /// −∇·σ (3) at x (3)
-CEED_QFUNCTION_HELPER void hg_mms_linear_force(const CeedScalar *x, CeedScalar amplitude, CeedScalar lambda,
-                                               CeedScalar mu, CeedScalar *force) {
+CEED_QFUNCTION_HELPER
+void hg_mms_linear_force(const CeedScalar *x, CeedScalar amplitude, CeedScalar lambda, CeedScalar mu,
+                         CeedScalar *force) {
   const CeedScalar two_pi = 6.283185307179586476925;
   CeedScalar s[3], ds[3];  // s_k and its derivative
   for (CeedInt k = 0; k < 3; k++) {
@@ -41,7 +43,8 @@ CEED_QFUNCTION_HELPER void hg_mms_linear_force(const CeedScalar *x, CeedScalar a
 }
 
 /// in: q_data (10), x (3), moduli (2); out: v (3)
-CEED_QFUNCTION(HgMmsLinearForce)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgMmsLinearForce)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   const CeedScalar amplitude = ((const HgMmsLinearContext *)ctx)->amplitude;
   const CeedScalar *w = in[0], *x = in[1], *moduli = in[2];
   CeedScalar *v = out[0];
@@ -55,7 +58,8 @@ CEED_QFUNCTION(HgMmsLinearForce)(void *ctx, CeedInt Q, const CeedScalar *const *
 }
 
 /// in: q_data (10), x (3), u (3); out: error (1): w |u − u_exact|²
-CEED_QFUNCTION(HgMmsLinearError)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgMmsLinearError)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   const CeedScalar amplitude = ((const HgMmsLinearContext *)ctx)->amplitude;
   const CeedScalar *w = in[0], *x = in[1], *u = in[2];
   CeedScalar *error = out[0];

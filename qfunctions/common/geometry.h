@@ -6,7 +6,8 @@
 #include "tensor.h"
 
 /// Quadrature points of a cell. in: ∂x/∂X (9), quadrature weight (1); out: q_data (10) with w det ∂x/∂X
-CEED_QFUNCTION(HgGeometry)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgGeometry)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *dx = in[0], *w = in[1];
   CeedScalar *q_data = out[0];

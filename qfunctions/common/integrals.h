@@ -10,10 +10,10 @@ typedef struct {
   CeedInt num_comp;
 } HgMassContext;
 
-/// v = w u for each component. With u and v interpolated this is a mass matrix; with u the value that a point carries it
-/// is the right-hand side of a projection to the mesh.
-/// in: q_data (10), u (num_comp); out: v (num_comp)
-CEED_QFUNCTION(HgMass)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+/// v = w u for each component. With u and v interpolated this is a mass matrix; with u the value that a point carries
+/// it is the right-hand side of a projection to the mesh. in: q_data (10), u (num_comp); out: v (num_comp)
+CEED_QFUNCTION(HgMass)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   const CeedInt num_comp = ((const HgMassContext *)ctx)->num_comp;
   const CeedScalar *w = in[0], *u = in[1];
   CeedScalar *v = out[0];
@@ -25,7 +25,8 @@ CEED_QFUNCTION(HgMass)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedSc
 
 /// The weight itself: with v interpolated this is the row sum of the mass matrix.
 /// in: q_data (10); out: v (1)
-CEED_QFUNCTION(HgWeight)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgWeight)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *w = in[0];
   CeedScalar *v = out[0];
@@ -35,7 +36,8 @@ CEED_QFUNCTION(HgWeight)(void *ctx, CeedInt Q, const CeedScalar *const *in, Ceed
 
 /// in: q_data (10), F (9), rho (1), u (3), ∇u (9);
 /// out: integrals (5): deformed volume w J/J_n, mass w ρ₀/J_n, mass times u (3)
-CEED_QFUNCTION(HgIntegrals)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgIntegrals)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *q_data = in[0], *F = in[1], *rho = in[2], *u = in[3], *du = in[4];
   CeedScalar *integrals = out[0];

@@ -12,14 +12,14 @@ typedef struct {
   CeedScalar w;        ///< weight of the point over J_n: its undeformed volume
   CeedScalar dXdx[9];  ///< ∂X/∂x, X the reference coordinates of the cell
   CeedScalar F_n[9];
-  CeedScalar dH[9];    ///< ΔH
+  CeedScalar dH[9];  ///< ΔH
   CeedScalar H[9];
   CeedScalar J_minus_1;  ///< det F − 1
 } HgKinematics;
 
 /// w/J_n, dXdx and F_n of point i.
-CEED_QFUNCTION_HELPER void hg_load_reference(CeedInt Q, CeedInt i, const CeedScalar *q_data, const CeedScalar *F,
-                                             HgKinematics *k) {
+CEED_QFUNCTION_HELPER
+void hg_load_reference(CeedInt Q, CeedInt i, const CeedScalar *q_data, const CeedScalar *F, HgKinematics *k) {
   CeedScalar H_n[9];
   hg_load(Q, i, 9, q_data + Q, k->dXdx);
   hg_load(Q, i, 9, F, k->F_n);
@@ -28,8 +28,9 @@ CEED_QFUNCTION_HELPER void hg_load_reference(CeedInt Q, CeedInt i, const CeedSca
 }
 
 /// Everything, from q_data (10), F (9) and the reference gradient of Δu (9).
-CEED_QFUNCTION_HELPER void hg_load_kinematics(CeedInt Q, CeedInt i, const CeedScalar *q_data, const CeedScalar *F,
-                                              const CeedScalar *du, HgKinematics *k) {
+CEED_QFUNCTION_HELPER
+void hg_load_kinematics(CeedInt Q, CeedInt i, const CeedScalar *q_data, const CeedScalar *F, const CeedScalar *du,
+                        HgKinematics *k) {
   CeedScalar H_n[9];
   hg_load_reference(Q, i, q_data, F, k);
   hg_gradient(Q, i, du, k->dXdx, k->dH);
@@ -40,12 +41,16 @@ CEED_QFUNCTION_HELPER void hg_load_kinematics(CeedInt Q, CeedInt i, const CeedSc
 }
 
 /// λ = K − 2μ/3
-CEED_QFUNCTION_HELPER CeedScalar hg_lambda(CeedScalar K, CeedScalar mu) { return K - 2. / 3. * mu; }
+CEED_QFUNCTION_HELPER
+CeedScalar hg_lambda(CeedScalar K, CeedScalar mu) {
+  return K - 2. / 3. * mu;
+}
 
 /// The ten diagnostic values of a point from its Cauchy stress (symmetric, 6), J and energy ψ per undeformed volume:
 /// the stress {xx, yy, zz, yz, xz, xy}, pressure −tr σ/3, von Mises stress, J, ψ.
-CEED_QFUNCTION_HELPER void hg_store_diagnostic(CeedInt Q, CeedInt i, const CeedScalar *sigma, CeedScalar J,
-                                               CeedScalar psi, CeedScalar *diagnostic) {
+CEED_QFUNCTION_HELPER
+void hg_store_diagnostic(CeedInt Q, CeedInt i, const CeedScalar *sigma, CeedScalar J, CeedScalar psi,
+                         CeedScalar *diagnostic) {
   const CeedScalar p = -(sigma[0] + sigma[1] + sigma[2]) / 3.;
   CeedScalar deviator = 0., shear = 0.;
   for (CeedInt c = 0; c < 3; c++) {

@@ -1,21 +1,23 @@
 /// @file
 /// Linear elasticity: ψ = μ ε:ε + (λ/2) tr²ε with ε = sym(F − I), so P = 2μ ε + λ tr(ε) I.
 ///
-/// With F_n = I this is the small-strain theory. For a point with a history it is the same energy of the same F, and the
-/// residual stays linear in Δu; it is not objective, so use it where displacements are small.
+/// With F_n = I this is the small-strain theory. For a point with a history it is the same energy of the same F, and
+/// the residual stays linear in Δu; it is not objective, so use it where displacements are small.
 #ifndef HG_MATERIALS_LINEAR_H
 #define HG_MATERIALS_LINEAR_H
 
 #include "../common/kinematics.h"
 
 /// σ = 2μ sym(H) + λ tr(H) I, symmetric
-CEED_QFUNCTION_HELPER void hg_linear_stress(const CeedScalar *H, CeedScalar K, CeedScalar mu, CeedScalar *sigma) {
+CEED_QFUNCTION_HELPER
+void hg_linear_stress(const CeedScalar *H, CeedScalar K, CeedScalar mu, CeedScalar *sigma) {
   const CeedScalar pressure = hg_lambda(K, mu) * hg_trace(H);
   hg_symmetric_part(H, sigma);
   for (CeedInt c = 0; c < 6; c++) sigma[c] = 2. * mu * sigma[c] + (c < 3 ? pressure : 0.);
 }
 
-CEED_QFUNCTION_HELPER CeedScalar hg_linear_energy(const CeedScalar *H, CeedScalar K, CeedScalar mu) {
+CEED_QFUNCTION_HELPER
+CeedScalar hg_linear_energy(const CeedScalar *H, CeedScalar K, CeedScalar mu) {
   CeedScalar e[6];
   hg_symmetric_part(H, e);
   const CeedScalar trace = e[0] + e[1] + e[2];
@@ -24,8 +26,8 @@ CEED_QFUNCTION_HELPER CeedScalar hg_linear_energy(const CeedScalar *H, CeedScala
 }
 
 /// dv = w ∇v : P F_nᵀ / J_n for a symmetric P
-CEED_QFUNCTION_HELPER void hg_linear_output(CeedInt Q, CeedInt i, const HgKinematics *k, const CeedScalar *sigma,
-                                            CeedScalar *dv) {
+CEED_QFUNCTION_HELPER
+void hg_linear_output(CeedInt Q, CeedInt i, const HgKinematics *k, const CeedScalar *sigma, CeedScalar *dv) {
   CeedScalar P[9], P_tilde[9];
   hg_unpack_symmetric(sigma, P);
   hg_multiply_transpose(P, k->F_n, P_tilde);
@@ -33,7 +35,8 @@ CEED_QFUNCTION_HELPER void hg_linear_output(CeedInt Q, CeedInt i, const HgKinema
 }
 
 /// in: q_data (10), F (9), moduli (2), ∇u (9); out: ∇v (9)
-CEED_QFUNCTION(HgLinearResidual)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgLinearResidual)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *q_data = in[0], *F = in[1], *moduli = in[2], *du = in[3];
   CeedScalar *dv = out[0];
@@ -48,7 +51,8 @@ CEED_QFUNCTION(HgLinearResidual)(void *ctx, CeedInt Q, const CeedScalar *const *
 }
 
 /// in: q_data (10), F (9), moduli (2), ∇δu (9); out: ∇v (9). δF = ∇δu F_n, δP = 2μ sym δF + λ tr(δF) I.
-CEED_QFUNCTION(HgLinearJacobian)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgLinearJacobian)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *q_data = in[0], *F = in[1], *moduli = in[2], *du = in[3];
   CeedScalar *dv = out[0];
@@ -65,7 +69,8 @@ CEED_QFUNCTION(HgLinearJacobian)(void *ctx, CeedInt Q, const CeedScalar *const *
 }
 
 /// in: q_data (10), F (9), moduli (2), ∇u (9); out: w ψ / J_n (1)
-CEED_QFUNCTION(HgLinearEnergy)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgLinearEnergy)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *q_data = in[0], *F = in[1], *moduli = in[2], *du = in[3];
   CeedScalar *energy = out[0];
@@ -78,7 +83,8 @@ CEED_QFUNCTION(HgLinearEnergy)(void *ctx, CeedInt Q, const CeedScalar *const *in
 }
 
 /// in: q_data (10), F (9), moduli (2), ∇u (9); out: diagnostic values (10)
-CEED_QFUNCTION(HgLinearDiagnostic)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgLinearDiagnostic)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *q_data = in[0], *F = in[1], *moduli = in[2], *du = in[3];
   CeedScalar *diagnostic = out[0];

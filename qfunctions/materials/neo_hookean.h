@@ -12,11 +12,14 @@
 #include "../common/kinematics.h"
 
 /// J² − 1
-CEED_QFUNCTION_HELPER CeedScalar hg_square_minus_one(CeedScalar J_minus_1) { return J_minus_1 * (J_minus_1 + 2.); }
+CEED_QFUNCTION_HELPER
+CeedScalar hg_square_minus_one(CeedScalar J_minus_1) {
+  return J_minus_1 * (J_minus_1 + 2.);
+}
 
 /// Kirchhoff stress τ (6); NaN where J <= 0
-CEED_QFUNCTION_HELPER void hg_neo_hookean_tau(const CeedScalar *H, CeedScalar J_minus_1, CeedScalar K, CeedScalar mu,
-                                              CeedScalar *tau) {
+CEED_QFUNCTION_HELPER
+void hg_neo_hookean_tau(const CeedScalar *H, CeedScalar J_minus_1, CeedScalar K, CeedScalar mu, CeedScalar *tau) {
   CeedScalar HHt[9], e[6], q[6];
   const CeedScalar spherical =
       0.5 * hg_lambda(K, mu) * hg_square_minus_one(J_minus_1) + hg_nan_if_inverted(1. + J_minus_1);
@@ -27,15 +30,16 @@ CEED_QFUNCTION_HELPER void hg_neo_hookean_tau(const CeedScalar *H, CeedScalar J_
 }
 
 /// ψ; NaN where J <= 0
-CEED_QFUNCTION_HELPER CeedScalar hg_neo_hookean_energy(const CeedScalar *H, CeedScalar J_minus_1, CeedScalar K,
-                                                       CeedScalar mu) {
+CEED_QFUNCTION_HELPER
+CeedScalar hg_neo_hookean_energy(const CeedScalar *H, CeedScalar J_minus_1, CeedScalar K, CeedScalar mu) {
   const CeedScalar phi = hg_x_minus_log1p(J_minus_1) + hg_nan_if_inverted(1. + J_minus_1);
   const CeedScalar shear = 0.5 * hg_contract(H, H) - hg_second_invariant(H) - hg_determinant(H) + phi;
   return mu * shear + 0.25 * hg_lambda(K, mu) * (J_minus_1 * J_minus_1 + 2. * phi);
 }
 
 /// in: q_data (10), F (9), moduli (2), ∇u (9); out: w ψ / J_n (1)
-CEED_QFUNCTION(HgNeoHookeanEnergy)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgNeoHookeanEnergy)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *q_data = in[0], *F = in[1], *moduli = in[2], *du = in[3];
   CeedScalar *energy = out[0];
@@ -48,7 +52,8 @@ CEED_QFUNCTION(HgNeoHookeanEnergy)(void *ctx, CeedInt Q, const CeedScalar *const
 }
 
 /// in: q_data (10), F (9), moduli (2), ∇u (9); out: diagnostic values (10)
-CEED_QFUNCTION(HgNeoHookeanDiagnostic)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgNeoHookeanDiagnostic)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *q_data = in[0], *F = in[1], *moduli = in[2], *du = in[3];
   CeedScalar *diagnostic = out[0];

@@ -13,9 +13,9 @@
 #include "neo_hookean.h"
 
 /// F (9), C⁻¹ (9), S (9) from H; NaN where J <= 0
-CEED_QFUNCTION_HELPER void hg_neo_hookean_second_piola(const CeedScalar *H, CeedScalar J_minus_1, CeedScalar K,
-                                                       CeedScalar mu, CeedScalar *F, CeedScalar *C_inverse,
-                                                       CeedScalar *S) {
+CEED_QFUNCTION_HELPER
+void hg_neo_hookean_second_piola(const CeedScalar *H, CeedScalar J_minus_1, CeedScalar K, CeedScalar mu, CeedScalar *F,
+                                 CeedScalar *C_inverse, CeedScalar *S) {
   CeedScalar E[9], C[9];
   const CeedScalar J = 1. + J_minus_1;
   const CeedScalar volumetric = 0.5 * hg_lambda(K, mu) * hg_square_minus_one(J_minus_1) + hg_nan_if_inverted(J);
@@ -33,8 +33,8 @@ CEED_QFUNCTION_HELPER void hg_neo_hookean_second_piola(const CeedScalar *H, Ceed
 }
 
 /// dv = w ∇v : P F_nᵀ / J_n
-CEED_QFUNCTION_HELPER void hg_neo_hookean_initial_output(CeedInt Q, CeedInt i, const HgKinematics *k,
-                                                         const CeedScalar *P, CeedScalar *dv) {
+CEED_QFUNCTION_HELPER
+void hg_neo_hookean_initial_output(CeedInt Q, CeedInt i, const HgKinematics *k, const CeedScalar *P, CeedScalar *dv) {
   CeedScalar P_tilde[9];
   hg_multiply_transpose(P, k->F_n, P_tilde);
   hg_gradient_transpose(Q, i, k->w, k->dXdx, P_tilde, dv);

@@ -6,7 +6,8 @@
 #include "../common/tensor.h"
 
 /// in: ∂x/∂X (9), V (1); out: q_data (10)
-CEED_QFUNCTION(HgGeometryPoints)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgGeometryPoints)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   (void)ctx;
   const CeedScalar *dx = in[0], *V = in[1];
   CeedScalar *q_data = out[0];

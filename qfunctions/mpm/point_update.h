@@ -16,7 +16,8 @@ typedef struct {
 
 /// in: q_data (10), F (9), x (3), u (3), Δu (3), ∇Δu (9); out: x (3), u (3), v (3), F (9), V (1).
 /// V is NaN where det(I + ∇Δu) <= 0.
-CEED_QFUNCTION(HgPointUpdate)(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+CEED_QFUNCTION(HgPointUpdate)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
   const CeedScalar delta_t = ((const HgPointUpdateContext *)ctx)->delta_t;
   const CeedScalar *q_data = in[0], *F = in[1], *x = in[2], *u = in[3], *delta_u = in[4], *grad_delta_u = in[5];
   CeedScalar *x_new = out[0], *u_new = out[1], *v_new = out[2], *F_new = out[3], *V_new = out[4];

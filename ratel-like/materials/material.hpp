@@ -39,16 +39,16 @@ struct QFunctionSpec {
 
 /// The vocabulary of field names. The operators room looks up suppliers by these.
 namespace field_names {
-inline constexpr const char *q_data = "q_data";    ///< 10: weight (w det J, or V_p), then dXdx[3*k + j] = ∂X_k/∂x_j
-inline constexpr const char *F = "F";              ///< 9: F_n at the start of the step (FEM: identity)
-inline constexpr const char *moduli = "moduli";    ///< 2: bulk modulus K, shear modulus μ
-inline constexpr const char *rho = "rho";          ///< 1: density ρ₀ for each unit of undeformed volume
-inline constexpr const char *x = "x";              ///< 3: coordinates of the point at the start of the step
-inline constexpr const char *u = "u";              ///< active, value or gradient of the displacement (increment)
-inline constexpr const char *v = "v";              ///< active, dual of u
+inline constexpr const char *q_data = "q_data";  ///< 10: weight (w det J, or V_p), then dXdx[3*k + j] = ∂X_k/∂x_j
+inline constexpr const char *F = "F";            ///< 9: F_n at the start of the step (FEM: identity)
+inline constexpr const char *moduli = "moduli";  ///< 2: bulk modulus K, shear modulus μ
+inline constexpr const char *rho = "rho";        ///< 1: density ρ₀ for each unit of undeformed volume
+inline constexpr const char *x = "x";            ///< 3: coordinates of the point at the start of the step
+inline constexpr const char *u = "u";            ///< active, value or gradient of the displacement (increment)
+inline constexpr const char *v = "v";            ///< active, dual of u
 inline constexpr const char *linearization = "linearization";  ///< written by the residual, read by the Jacobian
-inline constexpr const char *energy = "energy";    ///< 1: strain energy of the point, weight included
-inline constexpr const char *diagnostic = "diagnostic";  ///< see Material::diagnostic
+inline constexpr const char *energy = "energy";                ///< 1: strain energy of the point, weight included
+inline constexpr const char *diagnostic = "diagnostic";        ///< see Material::diagnostic
 }  // namespace field_names
 
 /// Elastic constants of one region, as the user gives them.
@@ -67,25 +67,31 @@ struct Material {
   std::string_view name;                      ///< for -model
   std::span<const std::string_view> aliases;  ///< further names for -model
   std::string_view summary;                   ///< one line for -help
-  CeedInt num_linearization;  ///< values at each point from residual to Jacobian; 0: none
+  CeedInt num_linearization;                  ///< values at each point from residual to Jacobian; 0: none
 
-  QFunctionSpec residual;    ///< q_data, F, moduli, ∇u → ∇v [, linearization]
-  QFunctionSpec jacobian;    ///< linearization or (q_data, F, moduli), ∇δu → ∇v: the exact derivative of residual
-  QFunctionSpec energy;      ///< q_data, F, moduli, ∇u → w ψ(F)/J_n
+  QFunctionSpec residual;  ///< q_data, F, moduli, ∇u → ∇v [, linearization]
+  QFunctionSpec jacobian;  ///< linearization or (q_data, F, moduli), ∇δu → ∇v: the exact derivative of residual
+  QFunctionSpec energy;    ///< q_data, F, moduli, ∇u → w ψ(F)/J_n
   QFunctionSpec diagnostic;  ///< q_data, F, moduli, ∇u → diagnostic values, not weighted
 };
 
 /// Values of Material::diagnostic, in this order.
-inline constexpr const char *diagnostic_names[] = {"cauchy_stress_xx", "cauchy_stress_yy", "cauchy_stress_zz",
-                                                   "cauchy_stress_yz", "cauchy_stress_xz", "cauchy_stress_xy",
-                                                   "pressure", "von_mises_stress", "J", "strain_energy_density"};
+inline constexpr const char *diagnostic_names[] = {"cauchy_stress_xx",
+                                                   "cauchy_stress_yy",
+                                                   "cauchy_stress_zz",
+                                                   "cauchy_stress_yz",
+                                                   "cauchy_stress_xz",
+                                                   "cauchy_stress_xy",
+                                                   "pressure",
+                                                   "von_mises_stress",
+                                                   "J",
+                                                   "strain_energy_density"};
 inline constexpr CeedInt num_diagnostic = 10;  ///< strain_energy_density is per undeformed volume; pressure = -tr σ / 3
 
-/// All materials.
-std::span<const Material> materials();
+/// All materials, each under one descriptor.
+std::span<const Material *const> materials();
 
 /// The material called `name` (or one of its aliases). Throws hg::Error that lists the known names.
 const Material &find_material(std::string_view name);
-
 
 }  // namespace hg

@@ -1,9 +1,9 @@
 /// @file
 /// The operators of a solid on a mesh, the same set for FEM and MPM.
 ///
-/// Every active vector is an L-vector of mesh.rstr_u: the PETSc local vector of mesh.dm, three components of a node next
-/// to each other, Dirichlet values put in by the caller. What an operator writes at a shared node is the sum over the
-/// local cells only; the caller adds ranks together (DMLocalToGlobal with ADD_VALUES). Nothing here is collective.
+/// Every active vector is an L-vector of mesh.rstr_u: the PETSc local vector of mesh.dm, three components of a node
+/// next to each other, Dirichlet values put in by the caller. What an operator writes at a shared node is the sum over
+/// the local cells only; the caller adds ranks together (DMLocalToGlobal with ADD_VALUES). Nothing here is collective.
 ///
 /// Unknown: FEM the total displacement u, MPM the increment Δu of the step. Units are the user's.
 ///

@@ -1,0 +1,4 @@
+# Tests of the rooms materials and operators.
+hg_mechanics_test(materials_elasticity_test)
+hg_mechanics_test(materials_qfunctions_test)
+target_sources(materials_qfunctions_test PRIVATE qfunctions_as_c.c)
