@@ -27,7 +27,7 @@ class PointEpoch {
   std::int32_t num_points() const { return num_points_; }
   /// Points of cell c are order()[starts()[c] .. starts()[c+1]); order holds storage indices. starts: num_cells + 1.
   std::span<const std::int32_t> starts() const { return starts_; }
-  std::span<const std::int32_t> order() const { return order_; }
+  std::span<const CeedInt> order() const { return std::span(offsets_).subspan(num_cells_ + 1); }
   /// Largest number of points in one cell; cells without points.
   std::int32_t max_points() const { return max_points_; }
   std::int32_t num_empty_cells() const { return num_empty_; }
@@ -46,8 +46,8 @@ class PointEpoch {
  private:
   Ceed ceed_;
   std::int32_t num_cells_ = 0, num_points_ = 0, max_points_ = 0, num_empty_ = 0;
-  std::vector<std::int32_t> starts_, order_;
-  std::vector<CeedInt> offsets_;
+  std::vector<std::int32_t> starts_;
+  std::vector<CeedInt> offsets_;  // as CeedElemRestrictionCreateAtPoints wants them
   CeedVectorHandle x_ref_;
   mutable std::map<CeedInt, CeedElemRestrictionHandle> rstr_;
 };

@@ -45,6 +45,8 @@ struct SwarmOptions {
 
   /// Reads and checks them; a bad value throws hg::Error that names option, value and expectation. Collective.
   static SwarmOptions read(MPI_Comm comm);
+  /// Throws hg::Error on a number of points that the placement cannot have.
+  void check() const;
 };
 
 /// What seeding asks of its caller for each point.
@@ -104,6 +106,14 @@ class PointField {
   std::size_t size_ = 0;
   PetscInt components_ = 1;
 };
+/// The fields above, in a fixed order: bytes of one component, and components.
+struct PointFieldSpec {
+  const char *name;
+  std::size_t bytes;
+  PetscInt components;
+};
+std::span<const PointFieldSpec> point_fields();
+
 extern template class PointField<double>;
 extern template class PointField<std::int32_t>;
 extern template class PointField<std::int64_t>;
