@@ -88,12 +88,6 @@ std::unique_ptr<CeedQFunctionField_private> new_field(const CeedQFunction_privat
   return field;
 }
 
-int identity(void *ctx, const CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
-  const CeedInt size = *static_cast<const CeedInt *>(ctx);
-  for (CeedInt i = 0; i < Q * size; i++) out[0][i] = in[0][i];
-  return 0;
-}
-
 }  // namespace
 
 const CeedQFunction CEED_QFUNCTION_NONE = &none.object;
@@ -170,8 +164,6 @@ int CeedQFunctionCreateInteriorByName(Ceed ceed, const char *name, CeedQFunction
     auto created = create(ceed, found.vec_length, found.function, found.source.c_str());
     created->gallery_name = name;
     hg::check(found.init(ceed, name, created.get()));
-    created->is_immutable = created->gallery_name != "Scale" && created->gallery_name != "Scale (scalar)" &&
-                            created->gallery_name != "Identity";
     *qf = created.release();
   });
 }
@@ -179,19 +171,12 @@ int CeedQFunctionCreateInteriorByName(Ceed ceed, const char *name, CeedQFunction
 int CeedQFunctionCreateIdentity(Ceed ceed, CeedInt size, CeedEvalMode in_mode, CeedEvalMode out_mode,
                                 CeedQFunction *qf) {
   return hg::guard(ceed, [&] {
-    auto created = create(ceed, 1, identity, "Identity");
+    CeedQFunction identity = nullptr;
+    hg::check(CeedQFunctionCreateInteriorByName(ceed, "Identity", &identity));
+    auto created = hg::Ref<CeedQFunction_private>::adopt(identity);
     created->is_identity = true;
-    created->gallery_name = "Identity";
-    created->user_flops = 0;
-    hg::check(CeedQFunctionAddInput(created.get(), "input", size, in_mode));
-    hg::check(CeedQFunctionAddOutput(created.get(), "output", size, out_mode));
-    CeedQFunctionContext context = nullptr;
-    hg::check(CeedQFunctionContextCreate(ceed, &context));
-    const auto held = hg::Ref<CeedQFunctionContext_private>::adopt(context);
-    hg::check(CeedQFunctionContextSetData(context, CEED_MEM_HOST, CEED_COPY_VALUES, sizeof size, &size));
-    hg::check(CeedQFunctionContextRegisterInt32(context, "size", 0, 1, "components copied at each point"));
-    hg::check(CeedQFunctionSetContext(created.get(), context));
-    created->is_context_writable = false;
+    hg::check(CeedQFunctionAddInput(identity, "input", size, in_mode));
+    hg::check(CeedQFunctionAddOutput(identity, "output", size, out_mode));
     *qf = created.release();
   });
 }
@@ -216,6 +201,9 @@ int CeedQFunctionAddInput(CeedQFunction qf, const char *field_name, CeedInt size
       return hg::text("QFunction field '%s' of mode CEED_EVAL_WEIGHT: size is %" CeedInt_FMT "; expected 1", field_name,
                       size);
     });
+    if (qf->counts_components && qf->inputs.empty()) {
+      hg::check(CeedQFunctionContextSetData(qf->context.get(), CEED_MEM_HOST, CEED_COPY_VALUES, sizeof size, &size));
+    }
     qf->input_list.push_back(field.get());
     qf->inputs.push_back(std::move(field));
   });

@@ -422,13 +422,15 @@ CEED_EXTERN int CeedOperatorCreateAtPoints(Ceed ceed, CeedQFunction qf, CeedQFun
 CEED_EXTERN int CeedOperatorCreateComposite(Ceed ceed, CeedOperator *op);
 CEED_EXTERN int CeedOperatorReferenceCopy(CeedOperator op, CeedOperator *op_copy);
 /// Gives the field of the QFunction a restriction, a basis (CEED_BASIS_NONE for mode NONE) and a vector
-/// (CEED_VECTOR_ACTIVE, CEED_VECTOR_NONE for weights, or a passive one). Each field is set once.
+/// (CEED_VECTOR_ACTIVE, CEED_VECTOR_NONE for weights, or a passive one). Each field is set once; only fields stored at
+/// points (a restriction at points) may be set again, when points have moved.
 CEED_EXTERN int CeedOperatorSetField(CeedOperator op, const char *field_name, CeedElemRestriction rstr,
                                      CeedBasis basis, CeedVector vec);
 CEED_EXTERN int CeedOperatorGetFields(CeedOperator op, CeedInt *num_input_fields, CeedOperatorField **input_fields,
                                       CeedInt *num_output_fields, CeedOperatorField **output_fields);
 /// Restriction (at points, dim components) and L-vector of the points' reference coordinates. May be called again with
-/// other points of as many elements when points have moved; nothing is compiled again.
+/// other points of as many elements when points have moved; nothing is compiled again. If their number in some element
+/// has changed, the fields stored at points are set again too, before the next use.
 CEED_EXTERN int CeedOperatorAtPointsSetPoints(CeedOperator op, CeedElemRestriction rstr_points,
                                               CeedVector point_coords);
 CEED_EXTERN int CeedOperatorAtPointsGetPoints(CeedOperator op, CeedElemRestriction *rstr_points,

@@ -114,8 +114,8 @@ typedef struct {
   CeedInt num_active_in, num_active_out;  ///< active values at a point: size of the assembled QFunction
   CeedElemRestriction points_rstr;        ///< at points: restriction and L-vector of the reference coordinates
   CeedVector points;
-  CeedSize points_epoch;  ///< counts the calls of CeedOperatorAtPointsSetPoints(): what depends on points is stale when
-                          ///< it changes
+  CeedSize points_epoch;  ///< grows when points or fields at points are set again. Then num_qpts, the points and the
+                          ///< restrictions and vectors of sides at points may differ, the rest of the program is the same
 } CeedProgram;
 
 /// Which outputs an application adds to.
@@ -130,12 +130,14 @@ typedef struct {
   int (*destroy)(CeedOperator op);                             ///< optional
   /// in, out: L-vectors, or CEED_VECTOR_NONE where the operator has no active input or output.
   int (*apply_add)(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode);
-  /// values: num_active_in * num_active_out components at all points. At quadrature points E-vector layout (point,
-  /// component, element), point fastest; at points one element after another, component fastest. Overwritten.
-  int (*linear_assemble_qfunction)(CeedOperator op, const CeedProgram *program, CeedVector values);
+  /// The QFunction's matrix at each point of the elements [first_elem, first_elem + num_elem): num_active_in *
+  /// num_active_out components, component i*num_active_out + o. At quadrature points (point, component, element), point
+  /// fastest; at points one element after another, component fastest. `values` may be longer than that.
+  int (*linear_assemble_qfunction)(CeedOperator op, const CeedProgram *program, CeedInt first_elem, CeedInt num_elem,
+                                   CeedVector values);
   /// diagonal += ...; optional: the core assembles the QFunction and contracts.
   int (*linear_assemble_add_diagonal)(CeedOperator op, const CeedProgram *program, CeedVector diagonal);
-  /// Element matrices, (output dof, input dof) row-major, dof = component * nodes + node; optional as above.
+  /// Entries in the order of CeedOperatorLinearAssembleSymbolic() from values[offset] on; optional as above.
   int (*linear_assemble)(CeedOperator op, const CeedProgram *program, CeedSize offset, CeedVector values);
 } CeedOperatorOps;
 

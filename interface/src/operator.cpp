@@ -1,0 +1,251 @@
+/// Creation, composition, description.
+#include "operator.hpp"
+
+#include <algorithm>
+
+namespace {
+
+hg::Ref<CeedOperator_private> create(Ceed ceed) {
+  hg::deref(ceed, "Ceed");
+  auto op = hg::Ref<CeedOperator_private>::adopt(new CeedOperator_private);
+  op->ceed = hg::Ref<Ceed_private>(ceed);
+  return op;
+}
+
+hg::Ref<CeedOperator_private> create_single(Ceed ceed, CeedQFunction qf, bool is_at_points) {
+  hg::deref(qf, "QFunction of the operator");
+  hg::require(!qf->is_sentinel, CEED_ERROR_MINOR, "The operator's QFunction is CEED_QFUNCTION_NONE; expected a QFunction");
+  auto op = create(ceed);
+  op->is_at_points = is_at_points;
+  op->qf = hg::Ref<CeedQFunction_private>(qf);
+  qf->is_immutable = true;
+  const auto make_fields = [](const std::vector<CeedQFunctionField> &qf_fields, auto &fields, auto &list) {
+    for (const CeedQFunctionField qf_field : qf_fields) {
+      fields.push_back(std::make_unique<CeedOperatorField_private>());
+      fields.back()->qf_field = qf_field;
+      list.push_back(fields.back().get());
+    }
+  };
+  make_fields(qf->input_list, op->inputs, op->input_list);
+  make_fields(qf->output_list, op->outputs, op->output_list);
+  return op;
+}
+
+void require_composite(const CeedOperator_private &op, const char *function) {
+  hg::require(op.is_composite, CEED_ERROR_MINOR, [&] {
+    return hg::text("%s: CeedOperator '%s' is not composite", function, op.shown_name());
+  });
+}
+
+}  // namespace
+
+CeedOperator_private::~CeedOperator_private() {
+  if (program && ceed->ops.op.destroy != nullptr) ceed->ops.op.destroy(this);
+}
+
+void CeedOperator_private::view(FILE *stream, bool with_fields) const {
+  const std::string indent = hg::tabs(*this);
+  const char *s = indent.c_str();
+  const std::string title = name.empty() ? "" : " - " + name;
+  if (is_composite) {
+    std::fprintf(stream, "%sComposite CeedOperator%s\n", s, title.c_str());
+    for (std::size_t i = 0; i < subs.size(); i++) {
+      std::fprintf(stream, "%s  SubOperator %zu%s%s:\n", s, i, subs[i]->name.empty() ? "" : " - ",
+                   subs[i]->name.c_str());
+      const CeedInt old_tabs = subs[i]->num_view_tabs;
+      subs[i]->num_view_tabs = num_view_tabs + 1;
+      subs[i]->view(stream, with_fields);
+      subs[i]->num_view_tabs = old_tabs;
+    }
+    return;
+  }
+  std::fprintf(stream, "%sCeedOperator%s\n%s  %" CeedInt_FMT " elements with %" CeedInt_FMT " quadrature points each%s\n",
+               s, title.c_str(), s, num_elem, num_qpts, is_at_points ? " max" : "");
+  const auto total = input_list.size() + output_list.size();
+  std::fprintf(stream, "%s  %zu field%s\n", s, total, total == 1 ? "" : "s");
+  const auto print = [&](const char *what, const std::vector<CeedOperatorField> &fields) {
+    std::fprintf(stream, "%s  %zu %s field%s:\n", s, fields.size(), what, fields.size() == 1 ? "" : "s");
+    for (std::size_t i = 0; i < fields.size(); i++) {
+      const CeedOperatorField field = fields[i];
+      std::fprintf(stream, "%s    %s field %zu:\n%s      Name: \"%s\"\n", s, what, i, s, field->qf_field->name.c_str());
+      if (!with_fields) continue;
+      std::fprintf(stream, "%s      Size: %" CeedInt_FMT "\n%s      EvalMode: %s\n", s, field->qf_field->size, s,
+                   CeedEvalModes[field->qf_field->eval_mode]);
+      if (!field->is_set()) {
+        std::fprintf(stream, "%s      Not set\n", s);
+        continue;
+      }
+      if (field->basis.get() == CEED_BASIS_NONE) std::fprintf(stream, "%s      No basis\n", s);
+      if (field->is_active()) std::fprintf(stream, "%s      Active vector\n", s);
+      if (field->vec.get() == CEED_VECTOR_NONE) std::fprintf(stream, "%s      No vector\n", s);
+    }
+  };
+  print("input", input_list);
+  print("output", output_list);
+}
+
+int CeedOperatorCreate(Ceed ceed, CeedQFunction qf, CeedQFunction, CeedQFunction, CeedOperator *op) {
+  return hg::guard(ceed, [&] { *op = create_single(ceed, qf, false).release(); });
+}
+
+int CeedOperatorCreateAtPoints(Ceed ceed, CeedQFunction qf, CeedQFunction, CeedQFunction, CeedOperator *op) {
+  return hg::guard(ceed, [&] { *op = create_single(ceed, qf, true).release(); });
+}
+
+int CeedOperatorCreateComposite(Ceed ceed, CeedOperator *op) {
+  return hg::guard(ceed, [&] {
+    auto created = create(ceed);
+    created->is_composite = true;
+    *op = created.release();
+  });
+}
+
+int CeedOperatorReferenceCopy(CeedOperator op, CeedOperator *op_copy) {
+  return hg::guard(hg::ceed_of(op), [&] { hg::reference_copy(op, op_copy); });
+}
+
+int CeedOperatorReference(CeedOperator op) {
+  return hg::guard(hg::ceed_of(op), [&] { hg::reference(&hg::deref(op, "CeedOperator")); });
+}
+
+int CeedOperatorDestroy(CeedOperator *op) {
+  return hg::guard(op != nullptr ? hg::ceed_of(*op) : nullptr, [&] { hg::destroy(op); });
+}
+
+int CeedOperatorCompositeAddSub(CeedOperator composite_op, CeedOperator sub_op) {
+  return hg::guard(hg::ceed_of(composite_op), [&] {
+    require_composite(hg::deref(composite_op, "composite CeedOperator"), __func__);
+    hg::deref(sub_op, "sub-operator");
+    hg::require(!composite_op->is_immutable, CEED_ERROR_MAJOR, [&] {
+      return hg::text("CeedOperator '%s' takes no more sub-operators after it has been used",
+                      composite_op->shown_name());
+    });
+    hg::require(sub_op != composite_op, CEED_ERROR_MINOR, [&] {
+      return hg::text("CeedOperator '%s' cannot be its own sub-operator", composite_op->shown_name());
+    });
+    composite_op->subs.emplace_back(sub_op);
+    composite_op->sub_list.push_back(sub_op);
+  });
+}
+
+int CeedOperatorCompositeGetNumSub(CeedOperator op, CeedInt *num_suboperators) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    *num_suboperators = static_cast<CeedInt>(op->subs.size());
+  });
+}
+
+int CeedOperatorCompositeGetSubList(CeedOperator op, CeedOperator **sub_operators) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    *sub_operators = op->sub_list.data();
+  });
+}
+
+int CeedOperatorCompositeGetSubByName(CeedOperator op, const char *op_name, CeedOperator *sub_op) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    *sub_op = nullptr;
+    for (const CeedOperator sub : op->sub_list) {
+      if (sub->name == op_name) {
+        *sub_op = sub;
+        return;
+      }
+    }
+  });
+}
+
+int CeedOperatorCompositeSetSequential(CeedOperator op, bool is_sequential) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    op->is_sequential = is_sequential;
+  });
+}
+
+int CeedOperatorCompositeIsSequential(CeedOperator op, bool *is_sequential) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    *is_sequential = op->is_sequential;
+  });
+}
+
+int CeedOperatorIsComposite(CeedOperator op, bool *is_composite) {
+  return hg::guard(hg::ceed_of(op), [&] { *is_composite = hg::deref(op, "CeedOperator").is_composite; });
+}
+
+int CeedOperatorIsAtPoints(CeedOperator op, bool *is_at_points) {
+  return hg::guard(hg::ceed_of(op), [&] { *is_at_points = hg::deref(op, "CeedOperator").is_at_points; });
+}
+
+int CeedOperatorIsImmutable(CeedOperator op, bool *is_immutable) {
+  return hg::guard(hg::ceed_of(op), [&] { *is_immutable = hg::deref(op, "CeedOperator").is_immutable; });
+}
+
+int CeedOperatorIsSetupDone(CeedOperator op, bool *is_setup_done) {
+  return hg::guard(hg::ceed_of(op), [&] { *is_setup_done = hg::deref(op, "CeedOperator").program != nullptr; });
+}
+
+int CeedOperatorSetName(CeedOperator op, const char *name) {
+  return hg::guard(hg::ceed_of(op), [&] { hg::deref(op, "CeedOperator").name = name != nullptr ? name : ""; });
+}
+
+int CeedOperatorGetName(CeedOperator op, const char **name) {
+  return hg::guard(hg::ceed_of(op), [&] { *name = hg::deref(op, "CeedOperator").name.c_str(); });
+}
+
+int CeedOperatorSetNumViewTabs(CeedOperator op, CeedInt num_tabs) {
+  return CeedObjectSetNumViewTabs(reinterpret_cast<CeedObject>(op), num_tabs);
+}
+
+int CeedOperatorGetNumViewTabs(CeedOperator op, CeedInt *num_tabs) {
+  return CeedObjectGetNumViewTabs(reinterpret_cast<CeedObject>(op), num_tabs);
+}
+
+int CeedOperatorView(CeedOperator op, FILE *stream) {
+  return hg::guard(hg::ceed_of(op), [&] { hg::deref(op, "CeedOperator").view(stream, true); });
+}
+
+int CeedOperatorViewTerse(CeedOperator op, FILE *stream) {
+  return hg::guard(hg::ceed_of(op), [&] { hg::deref(op, "CeedOperator").view(stream, false); });
+}
+
+int CeedOperatorGetCeed(CeedOperator op, Ceed *ceed) {
+  return CeedObjectGetCeed(reinterpret_cast<CeedObject>(op), ceed);
+}
+
+Ceed CeedOperatorReturnCeed(CeedOperator op) { return hg::ceed_of(op); }
+
+int CeedOperatorGetData(CeedOperator op, void *data) {
+  return hg::guard(hg::ceed_of(op), [&] { *static_cast<void **>(data) = hg::deref(op, "CeedOperator").data; });
+}
+
+int CeedOperatorSetData(CeedOperator op, void *data) {
+  return hg::guard(hg::ceed_of(op), [&] { hg::deref(op, "CeedOperator").data = data; });
+}
+
+int CeedOperatorGetNumElements(CeedOperator op, CeedInt *num_elem) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    hg::require(!hg::deref(op, "CeedOperator").is_composite, CEED_ERROR_MINOR, [&] {
+      return hg::text("%s: CeedOperator '%s' is composite; ask its sub-operators", __func__, op->shown_name());
+    });
+    *num_elem = std::max(op->num_elem, 0);
+  });
+}
+
+int CeedOperatorGetNumQuadraturePoints(CeedOperator op, CeedInt *num_qpts) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    hg::require(!hg::deref(op, "CeedOperator").is_composite, CEED_ERROR_MINOR, [&] {
+      return hg::text("%s: CeedOperator '%s' is composite; ask its sub-operators", __func__, op->shown_name());
+    });
+    *num_qpts = std::max(op->num_qpts, 0);
+  });
+}
+
+int CeedOperatorGetQFunction(CeedOperator op, CeedQFunction *qf) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    hg::require(!hg::deref(op, "CeedOperator").is_composite, CEED_ERROR_MINOR, [&] {
+      return hg::text("%s: CeedOperator '%s' is composite; ask its sub-operators", __func__, op->shown_name());
+    });
+    *qf = hg::Ref<CeedQFunction_private>(op->qf).release();
+  });
+}

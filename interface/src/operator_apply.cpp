@@ -1,0 +1,128 @@
+/// Application.
+#include <algorithm>
+
+#include "operator.hpp"
+
+namespace {
+
+using hg::require;
+using hg::text;
+
+enum class Passive { write, add };
+
+void check_vector(const CeedOperator_private &op, CeedVector vec, CeedSize expected, const char *what) {
+  hg::deref(vec, what);
+  if (expected < 0) {
+    require(vec == CEED_VECTOR_NONE || vec == CEED_VECTOR_ACTIVE, CEED_ERROR_INCOMPATIBLE, [&] {
+      return text("CeedOperator '%s' has no active %s; expected CEED_VECTOR_NONE", op.shown_name(), what);
+    });
+    return;
+  }
+  require(vec != CEED_VECTOR_NONE && vec != CEED_VECTOR_ACTIVE, CEED_ERROR_INCOMPATIBLE, [&] {
+    return text("CeedOperator '%s' has an active %s; expected a vector of length %" CeedSize_FMT, op.shown_name(), what,
+                expected);
+  });
+  require(vec->length == expected, CEED_ERROR_DIMENSION, [&] {
+    return text("CeedOperator '%s': the %s vector has length %" CeedSize_FMT "; expected %" CeedSize_FMT,
+                op.shown_name(), what, vec->length, expected);
+  });
+}
+
+/// Distinct vectors of the passive outputs.
+std::vector<CeedVector> passive_outputs(CeedOperator_private &op) {
+  std::vector<CeedVector> vectors;
+  hg::for_each_single(op, [&](CeedOperator_private &single) {
+    const CeedProgram &program = hg::program_of(single);
+    for (CeedInt i = 0; i < program.num_sinks; i++) {
+      const CeedVector vec = program.sinks[i].vec;
+      if (!program.sinks[i].is_active && std::find(vectors.begin(), vectors.end(), vec) == vectors.end()) {
+        vectors.push_back(vec);
+      }
+    }
+  });
+  return vectors;
+}
+
+void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passive passive) {
+  hg::check_ready(hg::deref(op, "CeedOperator"));
+  CeedSize in_length = -1, out_length = -1;
+  hg::check(CeedOperatorGetActiveVectorLengths(op, &in_length, &out_length));
+  check_vector(*op, in, in_length, "input");
+  check_vector(*op, out, out_length, "output");
+  require(in != out || in_length < 0 || out_length < 0, CEED_ERROR_INCOMPATIBLE, [&] {
+    return text("CeedOperator '%s': input and output are one vector; expected two", op->shown_name());
+  });
+  if (!is_added && out_length >= 0) hg::check(CeedVectorSetValue(out, 0.0));
+  CeedApplyMode mode = passive == Passive::write ? CEED_APPLY_ADD_ACTIVE : CEED_APPLY_ADD_ALL;
+  if (op->is_composite && passive == Passive::write) {
+    // Sub-operators may share a passive output: it is cleared once, then all of them add.
+    for (const CeedVector vec : passive_outputs(*op)) hg::check(CeedVectorSetValue(vec, 0.0));
+    mode = CEED_APPLY_ADD_ALL;
+  }
+  hg::for_each_single(*op, [&](CeedOperator_private &single) {
+    const CeedProgram &program = hg::program_of(single);
+    if (program.num_elem == 0 && mode == CEED_APPLY_ADD_ALL) return;
+    const auto is_active = [](const CeedProgramSide &side) { return side.is_active; };
+    const bool takes_in = std::any_of(program.sources, program.sources + program.num_sources, is_active);
+    const bool gives_out = std::any_of(program.sinks, program.sinks + program.num_sinks, is_active);
+    hg::check(single.ceed->ops.op.apply_add(&single, &program, takes_in ? in : CEED_VECTOR_NONE,
+                                            gives_out ? out : CEED_VECTOR_NONE, mode));
+  });
+}
+
+}  // namespace
+
+int CeedOperatorApply(CeedOperator op, CeedVector in, CeedVector out, CeedRequest *) {
+  return hg::guard(hg::ceed_of(op), [&] { apply(op, in, out, false, Passive::write); });
+}
+
+int CeedOperatorApplyAdd(CeedOperator op, CeedVector in, CeedVector out, CeedRequest *) {
+  return hg::guard(hg::ceed_of(op), [&] { apply(op, in, out, true, Passive::add); });
+}
+
+int CeedOperatorApplyAddActive(CeedOperator op, CeedVector in, CeedVector out, CeedRequest *) {
+  return hg::guard(hg::ceed_of(op), [&] { apply(op, in, out, true, Passive::write); });
+}
+
+int CeedOperatorGetFlopsEstimate(CeedOperator op, CeedSize *flops) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    hg::check_ready(hg::deref(op, "CeedOperator"));
+    CeedSize total = 0;
+    hg::for_each_single(*op, [&](CeedOperator_private &single) {
+      const CeedProgram &program = hg::program_of(single);
+      // At points the work follows their number, which may differ between elements.
+      CeedInt num_points = program.num_qpts;
+      CeedSize all_points = static_cast<CeedSize>(program.num_elem) * program.num_qpts;
+      if (program.at_points) {
+        CeedInt in_all = 0;
+        hg::check(CeedElemRestrictionGetNumPoints(program.points_rstr, &in_all));
+        all_points = in_all;
+        num_points = program.num_elem > 0 ? (in_all + program.num_elem - 1) / program.num_elem : 0;
+      }
+      const auto add_sides = [&](const CeedProgramSide *sides, CeedInt count, CeedTransposeMode t_mode) {
+        for (CeedInt i = 0; i < count; i++) {
+          CeedSize side_flops = 0;
+          hg::check(CeedElemRestrictionGetFlopsEstimate(sides[i].rstr, t_mode, &side_flops));
+          total += side_flops;
+        }
+      };
+      const auto add_fields = [&](const CeedProgramField *fields, CeedInt count, CeedTransposeMode t_mode) {
+        for (CeedInt i = 0; i < count; i++) {
+          if (fields[i].space < 0 || fields[i].eval_mode == CEED_EVAL_WEIGHT) continue;
+          CeedSize basis_flops = 0;
+          hg::check(CeedBasisGetFlopsEstimate(program.spaces[fields[i].space].basis, t_mode, fields[i].eval_mode,
+                                              program.at_points, num_points, &basis_flops));
+          total += basis_flops * program.num_elem;
+        }
+      };
+      add_sides(program.sources, program.num_sources, CEED_NOTRANSPOSE);
+      add_sides(program.sinks, program.num_sinks, CEED_TRANSPOSE);
+      add_fields(program.inputs, program.num_inputs, CEED_NOTRANSPOSE);
+      add_fields(program.outputs, program.num_outputs, CEED_TRANSPOSE);
+      CeedSize qf_flops = 0;
+      hg::check(CeedQFunctionGetFlopsEstimate(program.qf, &qf_flops));
+      total += qf_flops * all_points;
+    });
+    *flops = total;
+  });
+}
