@@ -14,7 +14,7 @@ function(ceed_add_backend name)
   add_library(ceed_${name} MODULE ${arg_SOURCES})
   target_link_libraries(ceed_${name} PRIVATE ceed hg_build_flags)
   set_target_properties(ceed_${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name}
-    LIBRARY_OUTPUT_DIRECTORY "$<TARGET_FILE_DIR:ceed>/ceed-plugins")
+    LIBRARY_OUTPUT_DIRECTORY "$<TARGET_FILE_DIR:ceed>/ceed-plugins" INSTALL_RPATH "$ORIGIN/..")
   install(TARGETS ceed_${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/ceed-plugins")
 endfunction()
 
