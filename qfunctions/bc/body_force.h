@@ -3,12 +3,8 @@
 #ifndef HG_BC_BODY_FORCE_H
 #define HG_BC_BODY_FORCE_H
 
+#include "../common/contexts.h"
 #include "../common/kinematics.h"
-
-/// Context of HgBodyForce
-typedef struct {
-  CeedScalar acceleration[3];  ///< g
-} HgBodyForceContext;
 
 /// in: q_data (10), F (9), rho (1); out: v (3)
 CEED_QFUNCTION(HgBodyForce)

@@ -8,12 +8,8 @@
 #ifndef HG_BC_MMS_LINEAR_H
 #define HG_BC_MMS_LINEAR_H
 
+#include "../common/contexts.h"
 #include "../common/kinematics.h"
-
-/// Context of HgMmsLinearForce and HgMmsLinearError
-typedef struct {
-  CeedScalar amplitude;  ///< A₀, times the load factor
-} HgMmsLinearContext;
 
 /// u (3) at x (3)
 CEED_QFUNCTION_HELPER

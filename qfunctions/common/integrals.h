@@ -3,12 +3,8 @@
 #ifndef HG_COMMON_INTEGRALS_H
 #define HG_COMMON_INTEGRALS_H
 
+#include "contexts.h"
 #include "kinematics.h"
-
-/// Context of HgMass
-typedef struct {
-  CeedInt num_comp;
-} HgMassContext;
 
 /// v = w u for each component. With u and v interpolated this is a mass matrix; with u the value that a point carries
 /// it is the right-hand side of a projection to the mesh. in: q_data (10), u (num_comp); out: v (num_comp)
@@ -20,6 +16,16 @@ CEED_QFUNCTION(HgMass)
   for (CeedInt c = 0; c < num_comp; c++) {
     CeedPragmaSIMD for (CeedInt i = 0; i < Q; i++) v[c * Q + i] = w[i] * u[c * Q + i];
   }
+  return 0;
+}
+
+/// The value itself, for evaluating a field of the mesh at points: v = u. in: u (num_comp); out: v (num_comp)
+CEED_QFUNCTION(HgCopy)
+(void *ctx, CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+  const CeedInt size = Q * ((const HgMassContext *)ctx)->num_comp;
+  const CeedScalar *u = in[0];
+  CeedScalar *v = out[0];
+  CeedPragmaSIMD for (CeedInt i = 0; i < size; i++) v[i] = u[i];
   return 0;
 }
 

@@ -7,12 +7,8 @@
 #ifndef HG_MPM_POINT_UPDATE_H
 #define HG_MPM_POINT_UPDATE_H
 
+#include "../common/contexts.h"
 #include "../common/tensor.h"
-
-/// Context of HgPointUpdate
-typedef struct {
-  CeedScalar delta_t;  ///< Δt
-} HgPointUpdateContext;
 
 /// in: q_data (10), F (9), x (3), u (3), Δu (3), ∇Δu (9); out: x (3), u (3), v (3), F (9), V (1).
 /// V is NaN where det(I + ∇Δu) <= 0.

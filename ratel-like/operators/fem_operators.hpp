@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "mesh/region_map.hpp"
 #include "operators/solid_operators.hpp"
@@ -16,8 +17,12 @@ class FemOperators : public SolidOperators {
   /// The mesh must outlive this object. regions[i] fills region i of the map. Not collective; a rank may have no cells.
   FemOperators(const Mesh &mesh, const RegionMap &map, std::span<const RegionMaterial> regions, CeedInt q_extra = 0);
 
-  /// Cell averages of Material::diagnostic at displacement u: num_cells × num_diagnostic.
+  /// Cell averages (over the undeformed cell) of Material::diagnostic at displacement u: num_cells × num_diagnostic.
   std::vector<double> cell_diagnostics(CeedVector u);
+
+ private:
+  CeedInt points_per_cell_ = 0;
+  std::vector<std::vector<CeedInt>> cells_;  ///< of each part
 };
 
 }  // namespace hg

@@ -49,12 +49,12 @@ class SolidOperators {
   /// f = ∫ v · ρ g with ρ = ρ₀/J_n on the mesh of this step and acceleration g. f is overwritten.
   void body_force(const std::array<double, 3> &acceleration, CeedVector f);
 
-  /// f = ∫ v · (−∇·σ(u_mms)), the body force of the manufactured solution in qfunctions/bc/mms_linear.h times
-  /// `factor`. f is overwritten.
-  void mms_force(double factor, CeedVector f);
+  /// f = ∫ v · (−∇·σ(u_mms)), the body force of the manufactured solution of qfunctions/bc/mms_linear.h with this
+  /// amplitude (A₀ times the load factor). f is overwritten.
+  void mms_force(double amplitude, CeedVector f);
 
-  /// ∫ |u − factor u_mms|² over this rank's integration points.
-  double mms_error_squared(double factor, CeedVector u);
+  /// ∫ |u − u_mms|² over this rank's integration points.
+  double mms_error_squared(double amplitude, CeedVector u);
 
   /// Sums for each region on this rank, in the order of the regions.
   std::vector<RegionIntegrals> integrals(CeedVector u);
@@ -62,13 +62,30 @@ class SolidOperators {
  protected:
   SolidOperators(const Mesh &mesh, std::span<const RegionMaterial> regions);
 
-  /// Makes residual, Jacobian and the rest from one Integration for each material in use.
+  /// Takes one Integration for each material in use, with the fields q_data, F, moduli, rho at points and u, v, nodes
+  /// on the mesh, and makes residual and Jacobian. Operators made earlier are dropped.
   void build(std::vector<Integration> parts);
+  /// q_data of a part, by its geometry QFunction; `V` must be there for material points.
+  void add_geometry(Integration &part);
+  /// What a QFunction's output `output` (num_comp values at each integration point) is for the active vector `active`;
+  /// num_points × num_comp values, a point's next to each other.
+  std::vector<double> evaluate(const Integration &part, const QFunctionSpec &spec, CeedQFunctionContext context,
+                               const char *output, CeedVector active);
 
   const Mesh *mesh_;
+  Ceed ceed_;
   std::vector<RegionMaterial> regions_;
+  QFunctionCache cache_;
   std::vector<Integration> parts_;
   CeedOperatorHandle residual_, jacobian_;
+  CeedVectorHandle scratch_;  ///< of the length of a local displacement vector
+
+ private:
+  void add_coordinates(Integration &part);
+  CeedOperatorHandle compose(const QFunctionSpec &spec, CeedQFunctionContext context);
+
+  CeedQFunctionContextHandle body_force_context_, mms_context_;
+  CeedOperatorHandle body_force_, mms_force_;
 };
 
 }  // namespace hg

@@ -1,0 +1,144 @@
+#include "operators/fem_operators.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "options/error.hpp"
+
+namespace hg {
+
+namespace {
+
+/// A field that reads entry `entry[cell]` of a table at every point of the cell.
+Integration::AtPoints table_field(Ceed ceed, std::span<const double> table, CeedInt num_comp,
+                                  std::span<const int> entry, CeedInt points_per_cell) {
+  Integration::AtPoints field;
+  field.values = make_vector(ceed, table);
+  const auto num_cells = static_cast<CeedInt>(entry.size());
+  const auto length = static_cast<CeedSize>(table.size());
+  std::vector<CeedInt> offsets;
+  offsets.reserve(entry.size() * points_per_cell);
+  for (const int e : entry) offsets.insert(offsets.end(), points_per_cell, e * num_comp);
+  ceed_check(CeedElemRestrictionCreate(ceed, num_cells, points_per_cell, num_comp, 1, length, CEED_MEM_HOST,
+                                       CEED_COPY_VALUES, offsets.data(), field.rstr.put()));
+  return field;
+}
+
+/// The displacement restriction of some cells.
+CeedElemRestrictionHandle some_cells(const Mesh &mesh, std::span<const CeedInt> cells) {
+  const auto num_nodes = static_cast<CeedInt>((mesh.order + 1) * (mesh.order + 1) * (mesh.order + 1));
+  std::vector<CeedInt> offsets;
+  offsets.reserve(cells.size() * num_nodes);
+  for (const CeedInt cell : cells) {
+    const auto first = mesh.node_offsets().begin() + static_cast<std::ptrdiff_t>(cell) * num_nodes;
+    offsets.insert(offsets.end(), first, first + num_nodes);
+  }
+  CeedElemRestrictionHandle rstr;
+  ceed_check(CeedElemRestrictionCreate(mesh.ceed, static_cast<CeedInt>(cells.size()), num_nodes, 3, 1, mesh.local_size,
+                                       CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(), rstr.put()));
+  return rstr;
+}
+
+}  // namespace
+
+FemOperators::FemOperators(const Mesh &mesh, const RegionMap &map, std::span<const RegionMaterial> regions,
+                           CeedInt q_extra)
+    : SolidOperators(mesh, regions) {
+  if (map.num_regions() != static_cast<int>(regions.size())) {
+    fail("%d regions on the mesh, but materials for %zu", map.num_regions(), regions.size());
+  }
+  map.require_all_cells();
+  const auto q_1d = static_cast<CeedInt>(mesh.order + 1) + q_extra;
+  points_per_cell_ = q_1d * q_1d * q_1d;
+  const CeedBasisHandle basis_u = mesh.basis(mesh.order, 3, q_1d, CEED_GAUSS);
+  const CeedBasisHandle basis_x = mesh.basis(1, 3, q_1d, CEED_GAUSS);
+
+  std::vector<Integration> parts;
+  for (const Material *material : materials()) {
+    // the cells of this material, the regions that have it, and which of these each cell is in
+    std::vector<CeedInt> cells;
+    std::vector<int> entry, number(regions.size(), -1);
+    auto region_of = std::make_shared<std::vector<int>>();
+    std::vector<double> moduli, rho;
+    for (std::size_t r = 0; r < regions.size(); r++) {
+      if (regions[r].material != material) continue;
+      number[r] = static_cast<int>(rho.size());
+      const ElasticParameters &parameters = regions[r].parameters;
+      moduli.insert(moduli.end(), {parameters.bulk_modulus(), parameters.shear_modulus()});
+      rho.push_back(parameters.rho);
+    }
+    for (CeedInt cell = 0; cell < mesh.num_cells; cell++) {
+      const int region = map.of_cell(cell);
+      if (number[region] < 0) continue;
+      cells.push_back(cell);
+      entry.push_back(number[region]);
+      region_of->push_back(region);
+    }
+    if (cells.empty()) continue;
+
+    Integration part;
+    part.ceed = ceed_;
+    part.material = material;
+    const auto num_cells = static_cast<CeedInt>(cells.size());
+    const CeedInt per_cell = points_per_cell_;
+    part.num_points = static_cast<CeedSize>(num_cells) * per_cell;
+    part.restriction = [ceed = ceed_, num_cells, per_cell](CeedInt num_comp) {
+      const CeedInt strides[3] = {num_comp, 1, num_comp * per_cell};
+      CeedElemRestrictionHandle rstr;
+      ceed_check(CeedElemRestrictionCreateStrided(ceed, num_cells, per_cell, num_comp,
+                                                  static_cast<CeedSize>(num_cells) * per_cell * num_comp, strides,
+                                                  rstr.put()));
+      return rstr;
+    };
+    part.region = [region_of, per_cell](CeedSize point) { return (*region_of)[point / per_cell]; };
+
+    const bool all = num_cells == mesh.num_cells;
+    for (const char *name : {field_names::u, field_names::v}) {
+      part.on_mesh[name] = {all ? share(mesh.rstr_u.get()) : some_cells(mesh, cells), share(basis_u.get()), {}};
+    }
+    std::vector<double> corners;
+    corners.reserve(cells.size() * 24);
+    for (const CeedInt cell : cells) {
+      const auto x = mesh.corners(cell);
+      corners.insert(corners.end(), x.begin(), x.end());
+    }
+    Integration::OnMesh &nodes = part.on_mesh["nodes"];
+    const CeedInt strides[3] = {3, 1, 24};
+    ceed_check(CeedElemRestrictionCreateStrided(ceed_, num_cells, 8, 3, static_cast<CeedSize>(corners.size()), strides,
+                                                nodes.rstr.put()));
+    nodes.basis = share(basis_x.get());
+    nodes.values = make_vector(ceed_, corners);
+    add_geometry(part);
+
+    constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    part.at_points[field_names::F] = table_field(ceed_, identity, 9, std::vector<int>(cells.size(), 0), per_cell);
+    part.at_points[field_names::moduli] = table_field(ceed_, moduli, 2, entry, per_cell);
+    part.at_points[field_names::rho] = table_field(ceed_, rho, 1, entry, per_cell);
+    cells_.push_back(std::move(cells));
+    parts.push_back(std::move(part));
+  }
+  build(std::move(parts));
+}
+
+std::vector<double> FemOperators::cell_diagnostics(CeedVector u) {
+  std::vector<double> averages(static_cast<std::size_t>(mesh_->num_cells) * num_diagnostic, 0.);
+  for (std::size_t k = 0; k < parts_.size(); k++) {
+    const std::vector<double> values =
+        evaluate(parts_[k], parts_[k].material->diagnostic, nullptr, field_names::diagnostic, u);
+    const std::vector<double> q_data = to_host(parts_[k].at_points.at(field_names::q_data).values);
+    for (std::size_t c = 0; c < cells_[k].size(); c++) {
+      double *average = averages.data() + static_cast<std::size_t>(cells_[k][c]) * num_diagnostic;
+      double volume = 0.;
+      for (CeedInt q = 0; q < points_per_cell_; q++) {
+        const std::size_t point = c * points_per_cell_ + q;
+        const double w = q_data[10 * point];
+        volume += w;
+        for (CeedInt d = 0; d < num_diagnostic; d++) average[d] += w * values[point * num_diagnostic + d];
+      }
+      for (CeedInt d = 0; d < num_diagnostic; d++) average[d] /= volume;
+    }
+  }
+  return averages;
+}
+
+}  // namespace hg
