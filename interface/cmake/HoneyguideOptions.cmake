@@ -9,6 +9,25 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
+# The build tree has the shape of an installation: programs in bin/, the library and its plugins in lib/.
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+
+# Installed programs find the library relative to themselves; LD_LIBRARY_PATH goes before it (RUNPATH, not RPATH), so
+# that a program can be run with another library of this interface.
+file(RELATIVE_PATH hg_bin_to_lib "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+set(CMAKE_INSTALL_RPATH "$ORIGIN/${hg_bin_to_lib}")
+add_link_options(LINKER:--enable-new-dtags)
+
+# The version of the interface, which is also the version of the package, is said once: in the header.
+file(STRINGS "${PROJECT_SOURCE_DIR}/interface/include/ceed/ceed.h" version_lines
+     REGEX "^#define CEED_VERSION_(MAJOR|MINOR|PATCH) ")
+string(REGEX REPLACE "[^0-9]+([0-9]+)" ".\\1" HG_CEED_VERSION "${version_lines}")
+string(SUBSTRING "${HG_CEED_VERSION}" 1 -1 HG_CEED_VERSION)
+if(NOT HG_CEED_VERSION MATCHES "^[0-9]+\\.[0-9]+\\.[0-9]+$")
+  message(FATAL_ERROR "ceed.h: expected CEED_VERSION_MAJOR, _MINOR and _PATCH, found '${version_lines}'")
+endif()
+
 option(HONEYGUIDE_BPS "Build the bake-off programs" ON)
 option(HONEYGUIDE_MECHANICS "Build the mechanics layer (PETSc, MPI, HDF5, METIS)" ON)
 option(HONEYGUIDE_WERROR "Treat warnings as errors" ON)
@@ -22,6 +41,7 @@ target_compile_options(hg_build_flags INTERFACE -Wall -Wextra $<$<BOOL:${HONEYGU
 if(HONEYGUIDE_SANITIZE)
   target_compile_options(hg_build_flags INTERFACE -fsanitize=${HONEYGUIDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(hg_build_flags INTERFACE -fsanitize=${HONEYGUIDE_SANITIZE})
+  target_sources(hg_build_flags INTERFACE $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${PROJECT_SOURCE_DIR}/interface/cmake/sanitizer_defaults.c>)
 endif()
 if(HONEYGUIDE_COVERAGE)
   target_compile_options(hg_build_flags INTERFACE --coverage -O0)

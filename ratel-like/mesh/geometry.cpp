@@ -116,9 +116,9 @@ void Mesh::find_faces() {
 }
 
 const std::vector<double> &Mesh::node_coordinates(PetscInt space_order) const {
-  auto &coordinates = node_coordinates_[space_order];
-  if (!coordinates.empty() || num_cells == 0) return coordinates;
+  if (const auto known = node_coordinates_.find(space_order); known != node_coordinates_.end()) return known->second;
   const MeshSpace &scalar = space(space_order, 1);
+  auto &coordinates = node_coordinates_[space_order];
   PetscSection section;
   petsc_check(DMGetLocalSection(scalar.dm, &section));
   const std::vector<CeedInt> nodes = make_offsets(section, space_order, 1);

@@ -1,12 +1,11 @@
 #include "mesh/mesh.hpp"
 
-#include <petscpartitioner.h>
-
 #include <algorithm>
 #include <filesystem>
 
 #include "options/error.hpp"
 #include "options/options.hpp"
+#include "swarm/partition.hpp"
 
 namespace hg {
 
@@ -36,18 +35,13 @@ DmHandle read_dm(MPI_Comm comm) {
   DmHandle dm;
   petsc_check(DMCreate(comm, dm.put()));
   petsc_check(DMSetType(dm, DMPLEX));
-  PetscPartitioner partitioner;
-  petsc_check(DMPlexGetPartitioner(dm, &partitioner));
-  void (*metis)(void) = nullptr;
-  petsc_check(PetscFunctionListFind(PetscPartitionerList, "metis", &metis));
-  if (metis) petsc_check(PetscPartitionerSetType(partitioner, "metis"));
+  petsc_check(DMPlexDistributeSetDefault(dm, PETSC_FALSE));  // distribute_mesh does it, and keeps the cells' numbers
   try {
     petsc_check(DMSetFromOptions(dm));
   } catch (const Error &error) {
     if (file.empty()) throw;
     fail("mesh file '%s' could not be read as a mesh: %s", file.c_str(), error.what());
   }
-  petsc_check(DMViewFromOptions(dm, nullptr, "-dm_view"));
   return dm;
 }
 
@@ -57,6 +51,8 @@ Mesh::Mesh(MPI_Comm comm_in, Ceed ceed_in, const MeshOptions &options)
     : comm(comm_in), ceed(ceed_in), order(options.order) {
   if (order < 1 || order > 8) fail("order of the displacement: %" PetscInt_FMT ", expected 1 to 8", order);
   base_ = read_dm(comm);
+  cell_ids = distribute_mesh(base_, options.cell_weight);
+  petsc_check(DMViewFromOptions(base_, nullptr, "-dm_view"));
   read_topology();
   read_geometry(options.deform);
   constrain({});

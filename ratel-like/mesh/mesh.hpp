@@ -27,6 +27,8 @@ struct MeshOptions {
   PetscInt order = 1;  ///< of the displacement space, 1 to 8
   /// Moves each vertex once after the mesh is made (x[3] in, x[3] out); for tests on distorted cells.
   std::function<void(double *)> deform = nullptr;
+  /// Load of a cell by its centroid, for balance between ranks; empty: every cell the same.
+  std::function<PetscInt(const double *)> cell_weight{};
 };
 
 /// A nodal space of any order and number of components without constraints, for projections, stresses, output.
@@ -57,6 +59,7 @@ struct Mesh {
   CeedInt num_cells = 0;  ///< local cells; cell c is mesh point cell_start + c
   PetscInt cell_start = 0;
   PetscInt num_cells_global = 0;
+  std::vector<PetscInt> cell_ids;  ///< number of each local cell in the mesh before it was distributed
   PetscInt local_size = 0;  ///< length of a local displacement vector, constrained entries included
 
   CeedElemRestrictionHandle rstr_u;  ///< num_cells × (p+1)^3 × 3, comp_stride 1, L-vector = local vector of dm

@@ -37,22 +37,14 @@ std::vector<Side> other_sides(const Mesh &mesh, PetscMPIInt rank) {
 
 }  // namespace
 
-CellGrid build_cell_grid(const Mesh &mesh, std::span<const PetscInt> cell_ids) {
+CellGrid build_cell_grid(const Mesh &mesh) {
   PetscMPIInt rank, size;
   MPI_Comm_rank(mesh.comm, &rank);
   MPI_Comm_size(mesh.comm, &size);
   CellGrid grid;
   grid.corners = mesh.corner_coords;
-  grid.cell_ids.assign(cell_ids.begin(), cell_ids.end());
+  grid.cell_ids.assign(mesh.cell_ids.begin(), mesh.cell_ids.end());
   const std::int32_t num_cells = grid.num_cells();
-  if (cell_ids.empty()) {
-    PetscInt before = 0, n = num_cells;
-    MPI_Exscan(&n, &before, 1, MPIU_INT, MPI_SUM, mesh.comm);
-    if (rank == 0) before = 0;
-    for (PetscInt c = 0; c < n; c++) grid.cell_ids.push_back(before + c);
-  } else if (cell_ids.size() != static_cast<std::size_t>(num_cells)) {
-    fail("%zu cell numbers given for %d cells", cell_ids.size(), num_cells);
-  }
   grid.neighbours.resize(mesh.neighbours.size());
   for (std::size_t i = 0; i < mesh.neighbours.size(); i++) {
     grid.neighbours[i] = mesh.neighbours[i] >= 0 ? static_cast<std::int32_t>(mesh.neighbours[i]) : CellGrid::kBoundary;

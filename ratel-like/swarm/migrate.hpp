@@ -1,6 +1,4 @@
 #pragma once
-#include <span>
-
 #include "mesh/mesh.hpp"
 #include "swarm/cell_grid.hpp"
 #include "swarm/locate.hpp"
@@ -9,9 +7,7 @@
 namespace hg {
 
 /// The CellGrid of a mesh; faces shared between ranks are paired through the point SF of its DMPlex. Collective.
-/// cell_ids: numbers of the local cells in the undistributed mesh (distribute_mesh hands them out), or empty: then
-/// cells are numbered by rank, and what seeding derives from the numbers depends on the partition.
-CellGrid build_cell_grid(const Mesh &mesh, std::span<const PetscInt> cell_ids);
+CellGrid build_cell_grid(const Mesh &mesh);
 
 /// What a call of locate_points did, summed over all ranks.
 struct MigrateStats {

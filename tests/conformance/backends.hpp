@@ -33,6 +33,7 @@ struct Backend {
 std::vector<Backend> &backends();
 /// Restricts the list to these; before the first call of backends().
 void choose_backends(std::vector<std::string> resources);
+bool are_chosen();
 
 /// For INSTANTIATE_TEST_SUITE_P: the resources that open, and their names in test names.
 std::vector<std::string> usable_backends();

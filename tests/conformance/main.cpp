@@ -15,11 +15,13 @@ using hg::test::backends;
 /// Keeps the reasons of skipped tests for the summary.
 class Skips : public testing::EmptyTestEventListener {
  public:
-  void OnTestPartResult(const testing::TestPartResult &result) override {
-    if (!result.skipped()) return;
-    const auto *info = testing::UnitTest::GetInstance()->current_test_info();
-    const std::string name = info != nullptr ? std::string(info->test_suite_name()) + "." + info->name() : "?";
-    list.push_back(name + ": " + result.message());
+  void OnTestEnd(const testing::TestInfo &info) override {
+    const testing::TestResult &result = *info.result();
+    for (int i = 0; i < result.total_part_count(); i++) {
+      const testing::TestPartResult &part = result.GetTestPartResult(i);
+      if (part.skipped())
+        list.push_back(std::string(info.test_suite_name()) + "." + info.name() + ": " + part.message());
+    }
   }
   static inline std::vector<std::string> list;
 };

@@ -7,7 +7,7 @@
 namespace hg::test {
 
 /// Smooth map of the unit cube that leaves its boundary in place, so that the domain stays the cube.
-inline void bend(double *x) {
+inline void bend_cube(double *x) {
   const double s = 0.08 * std::sin(M_PI * x[0]) * std::sin(M_PI * x[1]) * std::sin(M_PI * x[2]);
   x[0] += s;
   x[1] -= 1.3 * s;

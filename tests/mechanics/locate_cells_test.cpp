@@ -33,7 +33,7 @@ class LocateCells : public testing::TestWithParam<GridCase> {
 INSTANTIATE_TEST_SUITE_P(Grids, LocateCells,
                          testing::Values(GridCase{"box", nullptr, true, true},
                                          GridCase{"parallelepiped", test::shear, true, false},
-                                         GridCase{"bent", test::bend, false, true},
+                                         GridCase{"bent", test::bend_cube, false, true},
                                          GridCase{"ring", test::ring, false, false}),
                          [](const auto &info) { return std::string(info.param.name); });
 
@@ -188,7 +188,7 @@ TEST_P(LocateCells, points_outside_are_reported_outside) {
 class LocateNearest : public LocateCells {};
 INSTANTIATE_TEST_SUITE_P(Cubes, LocateNearest,
                          testing::Values(GridCase{"box", nullptr, true, true},
-                                         GridCase{"bent", test::bend, false, true}),
+                                         GridCase{"bent", test::bend_cube, false, true}),
                          [](const auto &info) { return std::string(info.param.name); });
 
 TEST_P(LocateNearest, nearest_is_the_closest_point_of_the_mesh) {

@@ -106,27 +106,32 @@ CEED_EXTERN const char *const CeedFESpaces[];
 
 /// @name Bases
 /// @{
-/// Derivative at the quadrature points of the polynomial through values there: Q_1d by Q_1d, row-major, grad_1d =
-/// colo_grad_1d interp_1d. Needs Q_1d >= P_1d.
+/// D = grad_1d interp_1d^+ (pseudoinverse), Q_1d by Q_1d, row-major, which takes values at the quadrature points to
+/// derivatives there: D interp_1d = grad_1d. Needs Q_1d >= P_1d and independent columns of interp_1d.
 CEED_EXTERN int CeedBasisGetCollocatedGrad(CeedBasis basis, CeedScalar *colo_grad_1d);
-/// Values of the basis' P_1d Chebyshev polynomials of the first kind at the quadrature points' ...: Q_1d by Q_1d matrix
-/// that takes Chebyshev coefficients to values at the quadrature points, row-major.
+/// Q_1d by P_1d matrix, row-major, from values at the nodes to the Chebyshev coefficients (of T_0 ... T_(Q_1d-1)) of the
+/// polynomial through the values at the quadrature points.
 CEED_EXTERN int CeedBasisGetChebyshevInterp1D(CeedBasis basis, CeedScalar *chebyshev_interp_1d);
+/// The 1D basis functions as they are evaluated at arbitrary points: num_coeff by P_1d matrix, row-major, whose entry
+/// (k, j) is the coefficient of the Chebyshev polynomial T_k in the function of node j. P_1d rows for Lagrange bases,
+/// Q_1d for bases from the user's matrices. The basis keeps it. 0 and NULL where the basis cannot be evaluated there.
+CEED_EXTERN int CeedBasisGetChebyshevCoefficients1D(CeedBasis basis, CeedInt *num_coeff,
+                                                    const CeedScalar **chebyshev_1d);
 CEED_EXTERN int CeedBasisIsTensor(CeedBasis basis, bool *is_tensor);
 /// Whether the quadrature points are the nodes.
 CEED_EXTERN int CeedBasisIsCollocated(CeedBasis basis, bool *is_collocated);
 CEED_EXTERN int CeedBasisGetData(CeedBasis basis, void *data);
 CEED_EXTERN int CeedBasisSetData(CeedBasis basis, void *data);
 CEED_EXTERN int CeedBasisReference(CeedBasis basis);
-/// Values at a point for one component: 1, dim for GRAD.
+/// Values at a point for one component: dim for CEED_EVAL_GRAD, else 1. CEED_BASIS_NONE has all but the gradient.
 CEED_EXTERN int CeedBasisGetNumQuadratureComponents(CeedBasis basis, CeedEvalMode eval_mode, CeedInt *q_comp);
-/// Floating point operations for one element.
+/// Floating point operations for one element, sum-factorised; at points for num_points points.
 CEED_EXTERN int CeedBasisGetFlopsEstimate(CeedBasis basis, CeedTransposeMode t_mode, CeedEvalMode eval_mode,
                                           bool is_at_points, CeedInt num_points, CeedSize *flops);
 CEED_EXTERN int CeedBasisGetFESpace(CeedBasis basis, CeedFESpace *fe_space);
 CEED_EXTERN int CeedBasisGetTopologyDimension(CeedElemTopology topo, CeedInt *dim);
-/// Values (1) and derivatives (dim) of all nodes' basis functions at a reference point of a tensor-product basis whose
-/// nodes lie where its quadrature rule determines the polynomial: interp[n], grad[d*num_nodes + n]; either may be NULL.
+/// Values and derivatives of all nodes' basis functions at a reference point: interp[n], grad[d*num_nodes + n]; either
+/// may be NULL. Error as CeedBasisApplyAtPoints().
 CEED_EXTERN int CeedBasisEvaluateAtPoint(CeedBasis basis, const CeedScalar *x_ref, CeedScalar *interp,
                                          CeedScalar *grad);
 /// @}

@@ -281,14 +281,17 @@ CEED_EXTERN int CeedElemRestrictionDestroy(CeedElemRestriction *rstr);
 /// @}
 
 /// @defgroup CeedBasis Bases
-/// Reference elements of tensor-product bases are [-1,1]^dim; nodes and points are numbered with x fastest.
-/// Arrays at Q points: values are (point, component, element); derivatives (point, component, direction, element) with
-/// the point fastest in both.
+/// Reference elements of tensor-product bases are [-1,1]^dim; nodes and quadrature points are numbered with x fastest.
+/// Arrays for several elements hold one element after another. Within an element: at nodes (node, component), node
+/// fastest; values at points (point, component) and derivatives (point, component, direction), point fastest; quadrature
+/// weights (point).
 /// @{
-/// Lagrange basis of degree P-1 on Gauss-Lobatto nodes with Q points a direction, `num_comp` components.
+/// Lagrange basis of degree P-1 on Gauss-Lobatto nodes (P = 1: the constant) with Q points a direction, `num_comp`
+/// components. dim 1 to 3, P >= 1, Q >= 1 (>= 2 for Gauss-Lobatto points).
 CEED_EXTERN int CeedBasisCreateTensorH1Lagrange(Ceed ceed, CeedInt dim, CeedInt num_comp, CeedInt P, CeedInt Q,
                                                 CeedQuadMode quad_mode, CeedBasis *basis);
-/// Tensor-product basis from 1D matrices (row-major, Q_1d by P_1d), points and weights; all are copied.
+/// Tensor-product basis from 1D matrices (row-major, Q_1d by P_1d), points and weights; all are copied. Away from the
+/// quadrature points its functions are the polynomials of degree Q_1d - 1 through the values there.
 CEED_EXTERN int CeedBasisCreateTensorH1(Ceed ceed, CeedInt dim, CeedInt num_comp, CeedInt P_1d, CeedInt Q_1d,
                                         const CeedScalar *interp_1d, const CeedScalar *grad_1d,
                                         const CeedScalar *q_ref_1d, const CeedScalar *q_weight_1d, CeedBasis *basis);
@@ -296,15 +299,17 @@ CEED_EXTERN int CeedBasisReferenceCopy(CeedBasis basis, CeedBasis *basis_copy);
 CEED_EXTERN int CeedBasisSetNumViewTabs(CeedBasis basis, CeedInt num_tabs);
 CEED_EXTERN int CeedBasisGetNumViewTabs(CeedBasis basis, CeedInt *num_tabs);
 CEED_EXTERN int CeedBasisView(CeedBasis basis, FILE *stream);
-/// v = B u from nodes to points, or v = B^T u back. For CEED_EVAL_WEIGHT u is CEED_VECTOR_NONE.
+/// v = B u from nodes to quadrature points, or v = B^T u back (then all of v is set, also what lies beyond num_elem
+/// elements). For CEED_EVAL_WEIGHT, which has no transpose, u is CEED_VECTOR_NONE. Vectors may be longer than needed.
 CEED_EXTERN int CeedBasisApply(CeedBasis basis, CeedInt num_elem, CeedTransposeMode t_mode, CeedEvalMode eval_mode,
                                CeedVector u, CeedVector v);
 /// v += B^T u; only CEED_TRANSPOSE.
 CEED_EXTERN int CeedBasisApplyAdd(CeedBasis basis, CeedInt num_elem, CeedTransposeMode t_mode, CeedEvalMode eval_mode,
                                   CeedVector u, CeedVector v);
-/// The same at num_points[e] arbitrary points of element e, with reference coordinates x_ref. With N points in all,
-/// x_ref is (point, direction), values are (point, component), derivatives (point, component, direction), point
-/// fastest, one element after another.
+/// The same at num_points[e] >= 0 arbitrary points of element e, with reference coordinates x_ref: (point, direction),
+/// point fastest, within an element. x_ref and the values and derivatives of element e start after those of the points
+/// of all elements before it. Weights at points are 1.
+/// Error CEED_ERROR_UNSUPPORTED for a basis from the user's matrices with Q_1d < P_1d, which determine no polynomial.
 CEED_EXTERN int CeedBasisApplyAtPoints(CeedBasis basis, CeedInt num_elem, const CeedInt *num_points,
                                        CeedTransposeMode t_mode, CeedEvalMode eval_mode, CeedVector x_ref,
                                        CeedVector u, CeedVector v);

@@ -1,0 +1,160 @@
+#include "kernel_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <string_view>
+
+#include "ceed_handles.hpp"
+#include "library.hpp"
+
+namespace hg::bps {
+
+namespace {
+
+constexpr CeedInt max_degree = 8;
+
+std::vector<std::string> split(const std::string &text) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t comma; (comma = text.find(',', begin)) != std::string::npos; begin = comma + 1)
+    parts.push_back(text.substr(begin, comma - begin));
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+template <class Number>
+std::optional<Number> to_number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+std::vector<Problem> parse_problems(const std::vector<std::string> &texts) {
+  std::vector<Problem> problems;
+  for (const auto &text : texts)
+    for (const auto &part : split(text)) {
+      if (part == "all") {
+        problems.insert(problems.end(), all_problems().begin(), all_problems().end());
+      } else if (const Problem *problem = find_problem(part)) {
+        problems.push_back(*problem);
+      } else {
+        throw Error(fmt::format("--problem {}: unknown; known are bp1, bp2, bp3, bp4, bp5, bp6 and all", part));
+      }
+    }
+  return problems;
+}
+
+std::vector<double> parse_dofs(const std::string &text) {
+  std::vector<double> dofs;
+  for (const auto &part : split(text)) {
+    const auto value = to_number<double>(part);
+    if (!value || !(*value >= 8) || *value > 2e9)
+      throw Error(fmt::format("--dofs {}: expected numbers from 8 to 2e9, such as 100000 or 1e4,1e5,1e6", text));
+    dofs.push_back(*value);
+  }
+  return dofs;
+}
+
+std::vector<Placement> parse_placements(const std::string &text) {
+  std::vector<Placement> placements;
+  for (const auto &part : split(text)) {
+    if (part == "all") {
+      placements.insert(placements.end(), {Placement::uniform, Placement::gauss, Placement::random});
+    } else if (const auto placement = find_placement(part)) {
+      placements.push_back(*placement);
+    } else {
+      throw Error(fmt::format("--placement {}: unknown; known are uniform, gauss, random, quadrature and all", part));
+    }
+  }
+  return placements;
+}
+
+std::vector<std::string> resolve_resources(const std::vector<std::string> &requested) {
+  std::vector<std::string> resources;
+  for (const auto &name : requested) {
+    if (name != "all") {
+      resources.push_back(name);
+      continue;
+    }
+    for (auto &usable : usable_resources()) resources.push_back(std::move(usable));
+  }
+  if (resources.empty()) throw Error("--ceed all: no backend of this library works on this machine");
+  return resources;
+}
+
+}  // namespace
+
+std::vector<CeedInt> parse_integers(const std::string &option, const std::string &text, CeedInt low, CeedInt high) {
+  std::vector<CeedInt> values;
+  for (const auto &part : split(text)) {
+    const std::size_t dash = part.find('-', 1);
+    const auto first = to_number<CeedInt>(std::string_view(part).substr(0, dash));
+    const auto last = dash == std::string::npos ? first : to_number<CeedInt>(std::string_view(part).substr(dash + 1));
+    if (!first || !last || *first > *last || *first < low || *last > high)
+      throw Error(fmt::format("{} {}: '{}' is not a number or a range within {} to {}", option, text, part, low, high));
+    for (CeedInt value = *first; value <= *last; value++) values.push_back(value);
+  }
+  return values;
+}
+
+ParsedOptions parse_options(int argc, const char *const *argv) {
+  CLI::App app{
+      "The CEED bake-off problems BP1 to BP6 on a deformed box, at quadrature points or at material points:\n"
+      "times the operator and conjugate gradients on any backend of the library that this program finds."};
+  std::vector<std::string> resources{"/cpu/self"}, problems{"bp3"};
+  std::string degree = "1-4", dofs = "1e5", points, placement, json;
+  KernelOptions options;
+  app.add_option("--ceed", resources, "backend resource; repeat for several, `all` for every one that works here")
+      ->capture_default_str();
+  app.add_option("--problem", problems, "bp1 ... bp6 or all; several by commas or by repeating")->capture_default_str();
+  app.add_option("--degree", degree, "polynomial degrees, such as 1,2,3 or 1-8")->capture_default_str();
+  app.add_option("--dofs", dofs, "numbers of degrees of freedom, met as nearly as a box allows")->capture_default_str();
+  app.add_option("--points", points,
+                 "material points in each cell, such as 27 or 8,27,64 (default: quadrature points)");
+  app.add_option("--placement", placement,
+                 "where material points lie: uniform, gauss, random (in each cell, fixed seed), all of these; or\n"
+                 "quadrature, the quadrature points themselves, for which --points is not needed (default: uniform)");
+  app.add_option("--json", json, "write one record for each run to this file");
+  app.add_option("--reps", options.repetitions, "timed applications of each operator")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--cg-iterations", options.cg.max_iterations,
+                 "most CG iterations of a timed run; the error is\n"
+                 "reported if CG converges within them")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--cg-tolerance", options.cg.relative_tolerance, "relative residual at which CG has converged")
+      ->capture_default_str()
+      ->check(CLI::Range(0., 1.));
+  app.add_flag("--check", options.check,
+               "test instead of time: CG converges, errors fall at the optimal rate on two meshes, and points at the\n"
+               "quadrature points reproduce the operator at quadrature points to 1e-12; exit code 1 if any fails");
+  app.add_flag("--quiet", options.quiet, "no progress on standard error");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError &error) {
+    return {{}, app.exit(error) == 0 ? 0 : 2};
+  }
+
+  options.problems = parse_problems(problems);
+  options.degrees = parse_integers("--degree", degree, 1, max_degree);
+  options.dofs = parse_dofs(dofs);
+  if (!points.empty()) options.points = parse_integers("--points", points, 1, 1000000);
+  if (!placement.empty()) options.placements = parse_placements(placement);
+  if (!options.points.empty() && options.placements.empty()) options.placements = {Placement::uniform};
+  const auto needs_count = [](Placement p) { return p != Placement::quadrature; };
+  if (!options.check && options.points.empty() && std::ranges::any_of(options.placements, needs_count))
+    throw Error(fmt::format("--placement {}: needs the number of points in each cell, --points N", placement));
+  for (const Placement p : options.placements)
+    for (const CeedInt per_cell : options.points) require_point_count(p, per_cell);
+  if (!json.empty()) options.json = json;
+  options.resources = resolve_resources(resources);
+  return {options, 0};
+}
+
+}  // namespace hg::bps

@@ -1,0 +1,41 @@
+/// @file
+/// The command line of bps-kernel.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cg.hpp"
+#include "points.hpp"
+#include "problem.hpp"
+
+namespace hg::bps {
+
+struct KernelOptions {
+  std::vector<std::string> resources;  ///< `all` already replaced by the usable ones
+  std::vector<Problem> problems;
+  std::vector<CeedInt> degrees;
+  std::vector<double> dofs;
+  std::vector<CeedInt> points;        ///< points a cell; empty: at quadrature points
+  std::vector<Placement> placements;  ///< empty: not asked for
+  std::optional<std::filesystem::path> json;
+  int repetitions = 10;
+  CgOptions cg;
+  bool check = false;
+  bool quiet = false;
+};
+
+/// The options, or the exit code of a program that is done (help, or a bad option; both already printed).
+struct ParsedOptions {
+  std::optional<KernelOptions> options;
+  int exit_code = 0;
+};
+
+ParsedOptions parse_options(int argc, const char *const *argv);
+
+/// `1,2,3`, `1-8`, `1-3,6` as numbers, each in [low, high]. Throws Error that names the option and the bad part.
+std::vector<CeedInt> parse_integers(const std::string &option, const std::string &text, CeedInt low, CeedInt high);
+
+}  // namespace hg::bps

@@ -1,0 +1,19 @@
+/// @file
+/// The library that this process found: its version, its file, its backends.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hg::bps {
+
+/// `major.minor.patch`, followed by the source revision where the library knows it.
+std::string library_version();
+
+/// Every resource in the library's registry, in its order.
+std::vector<std::string> registered_resources();
+
+/// The resources among registered_resources() that initialise on this machine.
+std::vector<std::string> usable_resources();
+
+}  // namespace hg::bps

@@ -1,0 +1,19 @@
+// Settings of the sanitizers for every program of ours, so that none need be set in the environment.
+// The leaks named here are of libraries that keep memory to the end of the process.
+__attribute__((visibility("default"))) const char *__asan_default_options(void);
+__attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
+__attribute__((visibility("default"))) const char *__ubsan_default_options(void);
+
+const char *__asan_default_options(void) { return "detect_stack_use_after_return=1:strict_string_checks=1"; }
+
+const char *__lsan_default_suppressions(void) {
+  return "leak:libmpi.so\n"
+         "leak:libopen-pal.so\n"
+         "leak:libopen-rte.so\n"
+         "leak:mca_\n"
+         "leak:libpmix\n"
+         "leak:libhwloc\n"
+         "leak:libevent\n";
+}
+
+const char *__ubsan_default_options(void) { return "print_stacktrace=1"; }

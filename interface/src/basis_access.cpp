@@ -1,0 +1,315 @@
+// What a basis tells about itself.
+#include <algorithm>
+#include <cmath>
+
+#include "basis.hpp"
+
+namespace {
+
+constexpr CeedScalar rounding = 1e-14;
+
+/// A 1D table as View prints it: one row stays on the line of its name.
+void print_table(FILE *stream, const std::string &indent, const char *name, CeedInt rows, CeedInt columns,
+                 const std::vector<CeedScalar> &values) {
+  std::fprintf(stream, "%s  %-10s", indent.c_str(), name);
+  if (rows > 1) std::fprintf(stream, "\n");
+  for (CeedInt i = 0; i < rows; i++) {
+    if (rows > 1) std::fprintf(stream, "%s    [%" CeedInt_FMT "]", indent.c_str(), i);
+    for (CeedInt j = 0; j < columns; j++) {
+      const CeedScalar x = values[i * columns + j];
+      std::fprintf(stream, "\t% 12.8f", std::abs(x) > rounding ? x : 0.0);
+    }
+    std::fprintf(stream, "\n");
+  }
+}
+
+/// Kronecker product of 1D matrices, x fastest in rows and columns; direction g (none if negative) takes `grad_1d`.
+void kronecker(const CeedBasis_private &b, CeedInt g, CeedScalar *matrix) {
+  for (CeedInt q = 0; q < b.Q; q++) {
+    for (CeedInt n = 0; n < b.P; n++) {
+      CeedScalar product = 1.0;
+      for (CeedInt d = 0, q_rest = q, n_rest = n; d < b.dim; d++, q_rest /= b.Q_1d, n_rest /= b.P_1d) {
+        product *= (d == g ? b.grad_1d : b.interp_1d)[(q_rest % b.Q_1d) * b.P_1d + n_rest % b.P_1d];
+      }
+      matrix[static_cast<CeedSize>(q) * b.P + n] = product;
+    }
+  }
+}
+
+/// Multiply-add pairs of a sum-factorised evaluation from P to Q points a direction. Partial results are shared: after
+/// direction d there are the value and d+1 derivatives.
+CeedSize contraction_size(CeedInt dim, CeedSize P, CeedSize Q, bool is_grad) {
+  CeedSize size = 0;
+  for (CeedInt d = 0; d < dim; d++) {
+    CeedSize entries = P * Q;
+    for (CeedInt k = 0; k < d; k++) entries *= Q;
+    for (CeedInt k = d + 1; k < dim; k++) entries *= P;
+    const CeedInt partials = !is_grad ? 1 : d + 1 < dim ? d + 2 : dim;
+    size += entries * partials;
+  }
+  return size;
+}
+
+/// Body of the getters of a number or pointer.
+template <typename T, typename Get>
+int get(CeedBasis basis, T *value, const char *name, Get &&getter) {
+  return hg::guard(hg::ceed_of(basis), [&] {
+    auto &b = hg::deref_basis(basis);
+    hg::require_argument(b, value, name);
+    *value = getter(b);
+  });
+}
+
+void require_tensor(const CeedBasis_private &b, const char *what) {
+  hg::require(b.is_tensor, CEED_ERROR_MINOR,
+              [&] { return hg::text("CeedBasis: %s was asked of a basis without tensor product", what); });
+}
+
+}  // namespace
+
+namespace hg {
+
+CeedBasis_private &deref_basis(CeedBasis basis, std::source_location where) {
+  deref(basis, "CeedBasis", where);
+  require(!basis->is_sentinel, CEED_ERROR_INCOMPATIBLE, "CeedBasis is CEED_BASIS_NONE; expected a basis with matrices",
+          where);
+  return *basis;
+}
+
+void require_argument(const CeedBasis_private &, const void *argument, const char *what, std::source_location where) {
+  require(
+      argument != nullptr, CEED_ERROR_INCOMPLETE,
+      [&] { return text("CeedBasis: argument is NULL; expected %s", what); }, where);
+}
+
+bool equal(const CeedBasis_private &a, const CeedBasis_private &b) {
+  if (&a == &b) return true;
+  if (a.is_sentinel || b.is_sentinel) return false;
+  return a.topology == b.topology && a.fe_space == b.fe_space && a.is_tensor == b.is_tensor && a.dim == b.dim &&
+         a.num_comp == b.num_comp && a.P == b.P && a.Q == b.Q && a.q_ref == b.q_ref && a.q_weight == b.q_weight &&
+         (a.is_tensor ? a.interp_1d == b.interp_1d && a.grad_1d == b.grad_1d && a.chebyshev_1d == b.chebyshev_1d
+                      : a.interp == b.interp && a.grad == b.grad);
+}
+
+CeedInt q_components(const CeedBasis_private &basis, CeedEvalMode mode) {
+  switch (mode) {
+    case CEED_EVAL_NONE:
+    case CEED_EVAL_INTERP:
+    case CEED_EVAL_WEIGHT:
+      return 1;
+    case CEED_EVAL_GRAD:
+      require(!basis.is_sentinel, CEED_ERROR_INCOMPATIBLE, "CEED_BASIS_NONE has no CEED_EVAL_GRAD");
+      return basis.dim;
+    default:
+      throw Error(CEED_ERROR_UNSUPPORTED,
+                  text("CeedBasis: evaluation mode is %d; an H^1 basis has CEED_EVAL_INTERP, CEED_EVAL_GRAD and "
+                       "CEED_EVAL_WEIGHT",
+                       static_cast<int>(mode)));
+  }
+}
+
+}  // namespace hg
+
+void CeedBasis_private::view(FILE *stream) const {
+  const std::string indent = hg::tabs(*this);
+  const char *in = indent.c_str();
+  if (is_sentinel) {
+    std::fprintf(stream, "%sCeedBasis NONE\n", in);
+    return;
+  }
+  std::fprintf(stream, "%sCeedBasis in a %s space on a %s element\n", in, CeedFESpaces[fe_space],
+               CeedElemTopologies[topology]);
+  std::fprintf(stream, "%s  P: %" CeedInt_FMT "\n%s  Q: %" CeedInt_FMT "\n", in, P_1d, in, Q_1d);
+  std::fprintf(stream, "%s  dimension: %" CeedInt_FMT "\n%s  field components: %" CeedInt_FMT "\n", in, dim, in,
+               num_comp);
+  print_table(stream, indent, "qref1d:", 1, Q_1d, q_ref);
+  print_table(stream, indent, "qweight1d:", 1, Q_1d, q_weight);
+  print_table(stream, indent, "interp1d:", Q_1d, P_1d, interp_1d);
+  print_table(stream, indent, "grad1d:", Q_1d, P_1d, grad_1d);
+}
+
+int CeedBasisView(CeedBasis basis, FILE *stream) {
+  return hg::guard(hg::ceed_of(basis), [&] {
+    hg::deref(basis, "CeedBasis");
+    hg::require(stream != nullptr, CEED_ERROR_INCOMPLETE, "CeedBasis: stream is NULL; expected an open file");
+    basis->view(stream);
+  });
+}
+
+int CeedBasisSetNumViewTabs(CeedBasis basis, CeedInt num_tabs) {
+  return CeedObjectSetNumViewTabs(basis, num_tabs);
+}
+
+int CeedBasisGetNumViewTabs(CeedBasis basis, CeedInt *num_tabs) {
+  return CeedObjectGetNumViewTabs(basis, num_tabs);
+}
+
+int CeedBasisGetCeed(CeedBasis basis, Ceed *ceed) {
+  return CeedObjectGetCeed(basis, ceed);
+}
+
+Ceed CeedBasisReturnCeed(CeedBasis basis) {
+  return CeedObjectReturnCeed(basis);
+}
+
+int CeedBasisGetDimension(CeedBasis basis, CeedInt *dim) {
+  return get(basis, dim, "dim", [](auto &b) { return b.dim; });
+}
+
+int CeedBasisGetTopology(CeedBasis basis, CeedElemTopology *topo) {
+  return get(basis, topo, "topo", [](auto &b) { return b.topology; });
+}
+
+int CeedBasisGetNumComponents(CeedBasis basis, CeedInt *num_comp) {
+  return get(basis, num_comp, "num_comp", [](auto &b) { return b.num_comp; });
+}
+
+int CeedBasisGetNumNodes(CeedBasis basis, CeedInt *P) {
+  return get(basis, P, "P", [](auto &b) { return b.P; });
+}
+
+int CeedBasisGetNumNodes1D(CeedBasis basis, CeedInt *P_1d) {
+  return get(basis, P_1d, "P_1d", [](auto &b) {
+    require_tensor(b, "P_1d");
+    return b.P_1d;
+  });
+}
+
+int CeedBasisGetNumQuadraturePoints(CeedBasis basis, CeedInt *Q) {
+  return get(basis, Q, "Q", [](auto &b) { return b.Q; });
+}
+
+int CeedBasisGetNumQuadraturePoints1D(CeedBasis basis, CeedInt *Q_1d) {
+  return get(basis, Q_1d, "Q_1d", [](auto &b) {
+    require_tensor(b, "Q_1d");
+    return b.Q_1d;
+  });
+}
+
+int CeedBasisGetQRef(CeedBasis basis, const CeedScalar **q_ref) {
+  return get(basis, q_ref, "q_ref", [](auto &b) { return b.q_ref.data(); });
+}
+
+int CeedBasisGetQWeights(CeedBasis basis, const CeedScalar **q_weights) {
+  return get(basis, q_weights, "q_weights", [](auto &b) { return b.q_weight.data(); });
+}
+
+int CeedBasisGetInterp(CeedBasis basis, const CeedScalar **interp) {
+  return get(basis, interp, "interp", [](auto &b) {
+    if (b.is_tensor && b.interp.empty()) {
+      b.interp.resize(static_cast<std::size_t>(b.Q) * b.P);
+      kronecker(b, -1, b.interp.data());
+    }
+    return b.interp.data();
+  });
+}
+
+int CeedBasisGetInterp1D(CeedBasis basis, const CeedScalar **interp_1d) {
+  return get(basis, interp_1d, "interp_1d", [](auto &b) {
+    require_tensor(b, "interp_1d");
+    return b.interp_1d.data();
+  });
+}
+
+int CeedBasisGetGrad(CeedBasis basis, const CeedScalar **grad) {
+  return get(basis, grad, "grad", [](auto &b) {
+    if (b.is_tensor && b.grad.empty()) {
+      const std::size_t size = static_cast<std::size_t>(b.Q) * b.P;
+      b.grad.resize(b.dim * size);
+      for (CeedInt g = 0; g < b.dim; g++) kronecker(b, g, b.grad.data() + g * size);
+    }
+    return b.grad.data();
+  });
+}
+
+int CeedBasisGetGrad1D(CeedBasis basis, const CeedScalar **grad_1d) {
+  return get(basis, grad_1d, "grad_1d", [](auto &b) {
+    require_tensor(b, "grad_1d");
+    return b.grad_1d.data();
+  });
+}
+
+int CeedBasisIsTensor(CeedBasis basis, bool *is_tensor) {
+  return get(basis, is_tensor, "is_tensor", [](auto &b) { return b.is_tensor; });
+}
+
+// The quadrature points are the nodes where interpolation is the identity.
+int CeedBasisIsCollocated(CeedBasis basis, bool *is_collocated) {
+  return get(basis, is_collocated, "is_collocated", [](auto &b) {
+    if (!b.is_tensor || b.P_1d != b.Q_1d) return false;
+    for (CeedInt i = 0; i < b.Q_1d; i++) {
+      for (CeedInt j = 0; j < b.P_1d; j++) {
+        if (std::abs(b.interp_1d[i * b.P_1d + j] - (i == j ? 1.0 : 0.0)) > rounding) return false;
+      }
+    }
+    return true;
+  });
+}
+
+int CeedBasisGetData(CeedBasis basis, void *data) {
+  return hg::guard(hg::ceed_of(basis), [&] {
+    auto &b = hg::deref_basis(basis);
+    hg::require_argument(b, data, "data (where the pointer goes)");
+    *static_cast<void **>(data) = b.data;
+  });
+}
+
+int CeedBasisSetData(CeedBasis basis, void *data) {
+  return hg::guard(hg::ceed_of(basis), [&] { hg::deref_basis(basis).data = data; });
+}
+
+int CeedBasisGetNumQuadratureComponents(CeedBasis basis, CeedEvalMode eval_mode, CeedInt *q_comp) {
+  return hg::guard(hg::ceed_of(basis), [&] {
+    auto &b = hg::deref(basis, "CeedBasis");
+    hg::require_argument(b, q_comp, "q_comp");
+    *q_comp = hg::q_components(b, eval_mode);
+  });
+}
+
+// A multiplication and an addition count as two. At a point, the 1D functions are sums of Chebyshev polynomials.
+int CeedBasisGetFlopsEstimate(CeedBasis basis, CeedTransposeMode t_mode, CeedEvalMode eval_mode, bool is_at_points,
+                              CeedInt num_points, CeedSize *flops) {
+  return hg::guard(hg::ceed_of(basis), [&] {
+    auto &b = hg::deref_basis(basis);
+    hg::require_argument(b, flops, "flops");
+    hg::require(!is_at_points || num_points >= 0, CEED_ERROR_DIMENSION, [&] {
+      return hg::text("CeedBasis: num_points is %" CeedInt_FMT "; expected zero or more", num_points);
+    });
+    // The transpose does the same multiplications in the other order.
+    static_cast<void>(t_mode);
+    const bool is_grad = eval_mode == CEED_EVAL_GRAD;
+    switch (eval_mode) {
+      case CEED_EVAL_NONE:
+        *flops = 0;
+        break;
+      case CEED_EVAL_WEIGHT:
+        *flops = is_at_points ? 0 : static_cast<CeedSize>(b.dim - 1) * b.Q;
+        break;
+      case CEED_EVAL_INTERP:
+      case CEED_EVAL_GRAD:
+        if (is_at_points) {
+          hg::require_polynomial(b);
+          const CeedSize tables = is_grad ? 2 : 1;
+          const CeedSize one_d = b.dim * tables * (3 + 2 * static_cast<CeedSize>(b.P_1d)) * b.num_chebyshev();
+          *flops = num_points * (one_d + 2 * b.num_comp * contraction_size(b.dim, b.P_1d, 1, is_grad));
+        } else {
+          *flops = 2 * b.num_comp * contraction_size(b.dim, b.P_1d, b.Q_1d, is_grad);
+        }
+        break;
+      default:
+        hg::q_components(b, eval_mode);  // names the mode that an H^1 basis lacks
+    }
+  });
+}
+
+int CeedBasisGetFESpace(CeedBasis basis, CeedFESpace *fe_space) {
+  return get(basis, fe_space, "fe_space", [](auto &b) { return b.fe_space; });
+}
+
+int CeedBasisGetTopologyDimension(CeedElemTopology topo, CeedInt *dim) {
+  return hg::guard(nullptr, [&] {
+    hg::require(dim != nullptr, CEED_ERROR_INCOMPLETE, "CeedBasis: argument is NULL; expected dim");
+    // The dimension is the upper half of the number.
+    *dim = static_cast<CeedInt>(topo) >> 16;
+  });
+}

@@ -1,0 +1,155 @@
+#include "solve/jacobian_mat.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "mesh/lend.hpp"
+#include "options/error.hpp"
+#include "options/options.hpp"
+
+namespace hg {
+
+namespace {
+
+JacobianMat &self(Mat mat) {
+  void *context;
+  petsc_check(MatShellGetContext(mat, &context));
+  return *static_cast<JacobianMat *>(context);
+}
+
+PetscErrorCode multiply_callback(Mat mat, Vec x, Vec y) {
+  return guard([&] { self(mat).multiply(x, y); });
+}
+
+PetscErrorCode diagonal_callback(Mat mat, Vec d) {
+  return guard([&] { self(mat).diagonal(d); });
+}
+
+}  // namespace
+
+JacobianMat::Type read_mat_type(MPI_Comm comm) {
+  OptionGroup group(comm, "", "Jacobian");
+  return group.choice("mat_type", "shell: product and diagonal only; aij: assembled, for -pc_type lu, gamg",
+                      {"shell", "aij"}, "shell") == "aij"
+             ? JacobianMat::Type::aij
+             : JacobianMat::Type::shell;
+}
+
+JacobianMat::JacobianMat(const Mesh &mesh, Type type) : mesh_(mesh), type_(type) {
+  petsc_check(DMCreateLocalVector(mesh.dm, local_in_.put()));
+  petsc_check(VecDuplicate(local_in_, local_out_.put()));
+  ceed_check(CeedVectorCreate(mesh.ceed, mesh.local_size, ceed_in_.put()));
+  ceed_check(CeedVectorCreate(mesh.ceed, mesh.local_size, ceed_out_.put()));
+
+  VecHandle global;
+  PetscInt rows;
+  petsc_check(DMCreateGlobalVector(mesh.dm, global.put()));
+  petsc_check(VecGetLocalSize(global, &rows));
+  if (type == Type::shell) {
+    petsc_check(MatCreateShell(mesh.comm, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE, this, mat_.put()));
+    petsc_check(MatShellSetOperation(mat_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply_callback)));
+    petsc_check(MatShellSetOperation(mat_, MATOP_MULT_TRANSPOSE, reinterpret_cast<void (*)()>(multiply_callback)));
+    petsc_check(MatShellSetOperation(mat_, MATOP_GET_DIAGONAL, reinterpret_cast<void (*)()>(diagonal_callback)));
+  } else {
+    petsc_check(MatCreate(mesh.comm, mat_.put()));
+    petsc_check(MatSetSizes(mat_, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));
+    petsc_check(MatSetType(mat_, MATAIJ));
+    petsc_check(MatSetOption(mat_, MAT_SYMMETRIC, PETSC_TRUE));
+  }
+
+  ISLocalToGlobalMapping to_global;
+  PetscInt size;
+  const PetscInt *indices;
+  petsc_check(DMGetLocalToGlobalMapping(mesh.dm, &to_global));
+  petsc_check(ISLocalToGlobalMappingGetSize(to_global, &size));
+  petsc_check(ISLocalToGlobalMappingGetIndices(to_global, &indices));
+  global_index_.assign(indices, indices + size);
+  petsc_check(ISLocalToGlobalMappingRestoreIndices(to_global, &indices));
+  if (size != mesh.local_size) {
+    fail("local to global mapping of %" PetscInt_FMT " entries, expected %" PetscInt_FMT, size, mesh.local_size);
+  }
+}
+
+void JacobianMat::set_operator(CeedOperator op, std::vector<PetscInt> inactive) {
+  op_ = op;
+  inactive_ = std::move(inactive);
+  if (type_ == Type::aij) pattern();
+}
+
+void JacobianMat::pattern() {
+  CeedSize count = 0;
+  CeedInt *rows = nullptr, *columns = nullptr;
+  ceed_check(CeedOperatorLinearAssembleSymbolic(op_, &count, &rows, &columns));
+  const std::unique_ptr<CeedInt, decltype(&std::free)> own_rows(rows, std::free), own_columns(columns, std::free);
+  int same = static_cast<CeedSize>(rows_.size()) == count && std::equal(rows_.begin(), rows_.end(), rows) &&
+             std::equal(columns_.begin(), columns_.end(), columns) && inactive_ == pattern_inactive_ && entries_;
+  int all_same = 0;
+  MPI_Allreduce(&same, &all_same, 1, MPI_INT, MPI_MIN, mesh_.comm);
+  if (all_same) return;
+  rows_.assign(rows, rows + count);
+  columns_.assign(columns, columns + count);
+  pattern_inactive_ = inactive_;
+  ceed_check(CeedVectorCreate(mesh_.ceed, count, entries_.put()));
+
+  PetscInt first, end;
+  petsc_check(MatGetOwnershipRange(mat_, &first, &end));
+  std::vector<PetscInt> i(count + inactive_.size()), j(i.size());
+  for (CeedSize k = 0; k < count; ++k) {
+    i[k] = global_index_[rows_[k]];
+    j[k] = global_index_[columns_[k]];
+  }
+  for (std::size_t k = 0; k < inactive_.size(); ++k) i[count + k] = j[count + k] = first + inactive_[k];
+  petsc_check(MatSetPreallocationCOO(mat_, static_cast<PetscCount>(i.size()), i.data(), j.data()));
+}
+
+void JacobianMat::update() {
+  if (type_ == Type::aij) {
+    ceed_check(CeedOperatorLinearAssemble(op_, entries_));
+    CeedSize count;
+    const CeedScalar *values;
+    ceed_check(CeedVectorGetLength(entries_, &count));
+    ceed_check(CeedVectorGetArrayRead(entries_, CEED_MEM_HOST, &values));
+    std::vector<PetscScalar> all(values, values + count);
+    ceed_check(CeedVectorRestoreArrayRead(entries_, &values));
+    all.resize(count + inactive_.size(), 1.);
+    petsc_check(MatSetValuesCOO(mat_, all.data(), INSERT_VALUES));
+  }
+  petsc_check(MatAssemblyBegin(mat_, MAT_FINAL_ASSEMBLY));
+  petsc_check(MatAssemblyEnd(mat_, MAT_FINAL_ASSEMBLY));
+}
+
+void JacobianMat::multiply(Vec x, Vec y) {
+  petsc_check(VecZeroEntries(local_in_));
+  petsc_check(DMGlobalToLocal(mesh_.dm, x, INSERT_VALUES, local_in_));
+  {
+    Lend in(local_in_, ceed_in_, Access::read), out(local_out_, ceed_out_, Access::write);
+    ceed_check(CeedOperatorApply(op_, ceed_in_, ceed_out_, CEED_REQUEST_IMMEDIATE));
+  }
+  petsc_check(VecZeroEntries(y));
+  petsc_check(DMLocalToGlobal(mesh_.dm, local_out_, ADD_VALUES, y));
+  if (inactive_.empty()) return;
+  const PetscScalar *from;
+  PetscScalar *to;
+  petsc_check(VecGetArrayRead(x, &from));
+  petsc_check(VecGetArray(y, &to));
+  for (PetscInt row : inactive_) to[row] = from[row];
+  petsc_check(VecRestoreArray(y, &to));
+  petsc_check(VecRestoreArrayRead(x, &from));
+}
+
+void JacobianMat::diagonal(Vec d) {
+  {
+    Lend out(local_out_, ceed_out_, Access::write);
+    ceed_check(CeedOperatorLinearAssembleDiagonal(op_, ceed_out_, CEED_REQUEST_IMMEDIATE));
+  }
+  petsc_check(VecZeroEntries(d));
+  petsc_check(DMLocalToGlobal(mesh_.dm, local_out_, ADD_VALUES, d));
+  if (inactive_.empty()) return;
+  PetscScalar *to;
+  petsc_check(VecGetArray(d, &to));
+  for (PetscInt row : inactive_) to[row] = 1.;
+  petsc_check(VecRestoreArray(d, &to));
+}
+
+}  // namespace hg

@@ -1,0 +1,61 @@
+/// @file
+/// The Jacobian of a solid as a PETSc matrix, from its CEED operator.
+#pragma once
+
+#include <ceed.h>
+#include <petscmat.h>
+
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "options/handle.hpp"
+
+namespace hg {
+
+/// -mat_type shell (default): product and diagonal of the operator, nothing is stored.
+/// -mat_type aij: assembled, for direct solvers and algebraic multigrid.
+/// Rows and columns are the entries of a global vector of mesh.dm, so constrained entries are not in it. Inactive rows,
+/// that no point supports, are rows of the identity.
+class JacobianMat {
+ public:
+  enum class Type { shell, aij };
+
+  /// Made after the mesh has its constraints; the mesh must outlive it. Collective.
+  JacobianMat(const Mesh &mesh, Type type);
+
+  Mat mat() const { return mat_; }
+  Type type() const { return type_; }
+
+  /// From now on the matrix is that of `op` (borrowed), which maps local vectors to local vectors.
+  /// `inactive` holds the rows of the identity, counted from this rank's first row, ascending. Collective.
+  void set_operator(CeedOperator op, std::vector<PetscInt> inactive);
+
+  /// Brings the matrix up to date with the data of the operator. Collective.
+  void update();
+
+  /// y = J x, on global vectors.
+  void multiply(Vec x, Vec y);
+  /// The diagonal of J.
+  void diagonal(Vec d);
+
+  /// Row or column of each entry of a local vector; negative for constrained entries.
+  const std::vector<PetscInt> &global_index() const { return global_index_; }
+
+ private:
+  void pattern();
+
+  const Mesh &mesh_;
+  Type type_;
+  MatHandle mat_;
+  CeedOperator op_ = nullptr;
+  std::vector<PetscInt> inactive_, global_index_;
+  VecHandle local_in_, local_out_;
+  CeedVectorHandle ceed_in_, ceed_out_, entries_;
+  std::vector<CeedInt> rows_, columns_;  ///< of the pattern in force, to know when it changes
+  std::vector<PetscInt> pattern_inactive_;
+};
+
+/// Reads -mat_type.
+JacobianMat::Type read_mat_type(MPI_Comm comm);
+
+}  // namespace hg

@@ -1,0 +1,233 @@
+#include "solve/static_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/lend.hpp"
+#include "options/error.hpp"
+
+namespace hg {
+
+namespace {
+
+StaticSolver &self(void *context) {
+  return *static_cast<StaticSolver *>(context);
+}
+
+PetscErrorCode residual_callback(SNES snes, Vec u, Vec f, void *context) {
+  return guard([&] {
+    if (!self(context).residual(u, f)) petsc_check(SNESSetFunctionDomainError(snes));
+  });
+}
+
+PetscErrorCode jacobian_callback(SNES, Vec u, Mat, Mat, void *context) {
+  return guard([&] { self(context).jacobian(u); });
+}
+
+bool finite_everywhere(Vec f) {
+  PetscReal norm;
+  petsc_check(VecNorm(f, NORM_2, &norm));
+  return std::isfinite(norm);
+}
+
+}  // namespace
+
+StaticSolver::StaticSolver(const Mesh &mesh, SolidOperators &operators, const BoundaryConditions &boundary,
+                           const RunOptions &options)
+    : mesh_(mesh), operators_(operators), boundary_(boundary), options_(options) {
+  OptionGroup group(mesh.comm, "", "Solver");
+  final_time_ = group.real("ts_max_time", "time at which the run ends [s]", 1., Range::positive());
+  keep_tolerance_ = group.given("snes_atol");
+  jacobian_ = std::make_unique<JacobianMat>(mesh, read_mat_type(mesh.comm));
+
+  petsc_check(DMCreateGlobalVector(mesh.dm, residual_.put()));
+  petsc_check(VecDuplicate(residual_, trial_.put()));
+  petsc_check(DMCreateLocalVector(mesh.dm, local_u_.put()));
+  petsc_check(VecDuplicate(local_u_, local_r_.put()));
+  petsc_check(VecDuplicate(local_u_, local_load_.put()));
+  petsc_check(VecDuplicate(local_u_, boundary_values_.put()));
+  petsc_check(VecZeroEntries(boundary_values_));
+  ceed_check(CeedVectorCreate(mesh.ceed, mesh.local_size, ceed_u_.put()));
+  ceed_check(CeedVectorCreate(mesh.ceed, mesh.local_size, ceed_r_.put()));
+
+  petsc_check(SNESCreate(mesh.comm, snes_.put()));
+  petsc_check(SNESSetFunction(snes_, residual_, residual_callback, this));
+  petsc_check(SNESSetJacobian(snes_, jacobian_->mat(), jacobian_->mat(), jacobian_callback, this));
+  petsc_check(SNESSetTolerances(snes_, 1e-50, 1e-8, 1e-14, 50, 100000));
+  KSP ksp;
+  PC pc;
+  petsc_check(SNESGetKSP(snes_, &ksp));
+  petsc_check(KSPGetPC(ksp, &pc));
+  if (jacobian_->type() == JacobianMat::Type::shell) {
+    petsc_check(KSPSetType(ksp, KSPCG));
+    petsc_check(PCSetType(pc, PCJACOBI));
+    petsc_check(KSPSetTolerances(ksp, 1e-6, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
+  } else {
+    petsc_check(KSPSetType(ksp, KSPPREONLY));
+    petsc_check(PCSetType(pc, PCLU));
+#if PetscDefined(HAVE_MUMPS)
+    int size;
+    MPI_Comm_size(mesh.comm, &size);
+    if (size > 1) petsc_check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+#endif
+  }
+  petsc_check(SNESSetFromOptions(snes_));
+  SNESLineSearch search;
+  petsc_check(SNESGetLineSearch(snes_, &search));
+  petsc_check(SNESLineSearchSetPreCheck(
+      search,
+      [](SNESLineSearch, Vec u, Vec y, PetscBool *changed, void *context) -> PetscErrorCode {
+        return guard([&] { self(context).shorten_step(u, y, changed); });
+      },
+      this));
+}
+
+void StaticSolver::operators_changed(const std::vector<char> &active_cells) {
+  const auto nodes_of_cell = static_cast<std::size_t>((mesh_.order + 1) * (mesh_.order + 1) * (mesh_.order + 1));
+  std::vector<double> active(static_cast<std::size_t>(mesh_.local_size) / 3, 0.);
+  const auto &offsets = mesh_.node_offsets();
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    if (active_cells[i / nodes_of_cell]) active[offsets[i] / 3] = 1;
+  }
+  mesh_.sum_shared(mesh_.order, 1, active);
+  PetscInt first, end;
+  petsc_check(VecGetOwnershipRange(residual_, &first, &end));
+  std::vector<PetscInt> inactive;
+  for (PetscInt i = 0; i < mesh_.local_size; ++i) {
+    const PetscInt row = jacobian_->global_index()[i];
+    if (row >= first && row < end && active[i / 3] == 0) inactive.push_back(row - first);
+  }
+  std::sort(inactive.begin(), inactive.end());
+  inactive_ = inactive;
+  jacobian_->set_operator(operators_.jacobian(), std::move(inactive));
+}
+
+void StaticSolver::external_force(const Step &step) {
+  if (options_.forcing.kind == BodyForce::Kind::none) {
+    petsc_check(VecZeroEntries(local_load_));
+    return;
+  }
+  Lend load(local_load_, ceed_r_, Access::write);
+  if (options_.forcing.kind == BodyForce::Kind::mms) {
+    operators_.mms_force(mms_factor(step.t, final_time_), ceed_r_);
+  } else {
+    const BodyForce &force = options_.forcing;
+    operators_.body_force(vector_at(force.times, force.vectors, force.ramp, step.t), ceed_r_);
+  }
+}
+
+void StaticSolver::to_local(Vec u, Vec local) const {
+  petsc_check(VecCopy(boundary_values_, local));
+  petsc_check(DMGlobalToLocal(mesh_.dm, u, INSERT_VALUES, local));
+}
+
+void StaticSolver::local_residual(Vec u) {
+  to_local(u, local_u_);
+  {
+    Lend in(local_u_, ceed_u_, Access::read), out(local_r_, ceed_r_, Access::write);
+    ceed_check(CeedOperatorApply(operators_.residual(), ceed_u_, ceed_r_, CEED_REQUEST_IMMEDIATE));
+  }
+  petsc_check(VecAXPY(local_r_, -1., local_load_));
+}
+
+bool StaticSolver::residual(Vec u, Vec f) {
+  local_residual(u);
+  petsc_check(VecZeroEntries(f));
+  petsc_check(DMLocalToGlobal(mesh_.dm, local_r_, ADD_VALUES, f));
+  if (!inactive_.empty()) {
+    // No material: the row says that the increment is zero.
+    const PetscScalar *from;
+    PetscScalar *to;
+    petsc_check(VecGetArrayRead(u, &from));
+    petsc_check(VecGetArray(f, &to));
+    for (PetscInt row : inactive_) to[row] = from[row];
+    petsc_check(VecRestoreArray(f, &to));
+    petsc_check(VecRestoreArrayRead(u, &from));
+  }
+  return finite_everywhere(f);
+}
+
+void StaticSolver::jacobian(Vec u) {
+  to_local(u, local_u_);
+  {
+    Lend in(local_u_, ceed_u_, Access::read);
+    operators_.linearize(ceed_u_);
+  }
+  jacobian_->update();
+}
+
+void StaticSolver::shorten_step(Vec u, Vec y, PetscBool *changed) {
+  // SNES goes to u − y. Its line searches give up at NaN, so they must not meet one.
+  *changed = PETSC_FALSE;
+  for (int halvings = 0; halvings < 30; ++halvings) {
+    petsc_check(VecWAXPY(trial_, -1., y, u));
+    local_residual(trial_);
+    PetscReal norm;
+    petsc_check(VecNorm(local_r_, NORM_2, &norm));
+    int finite = std::isfinite(norm), all_finite = 0;
+    MPI_Allreduce(&finite, &all_finite, 1, MPI_INT, MPI_MIN, mesh_.comm);
+    if (all_finite) return;
+    petsc_check(VecScale(y, 0.5));
+    *changed = PETSC_TRUE;
+  }
+}
+
+SolveResult StaticSolver::solve(const Step &step, Vec u) {
+  PetscScalar *values;
+  petsc_check(VecGetArray(boundary_values_, &values));
+  boundary_.insert(step.t, step.t_from, step.increment ? 1. : 0.,
+                   std::span<double>(values, static_cast<std::size_t>(mesh_.local_size)));
+  petsc_check(VecRestoreArray(boundary_values_, &values));
+  external_force(step);
+
+  SolveResult result;
+  if (!residual(u, residual_)) {
+    result.inverted = true;
+    result.reason = "inverted element (det F <= 0) at the start of the step";
+    return result;
+  }
+  if (!keep_tolerance_) {
+    // A step whose first residual is rounding noise is in equilibrium already.
+    PetscReal first;
+    petsc_check(VecNorm(residual_, NORM_2, &first));
+    scale_ = std::max(scale_, static_cast<double>(first));
+    PetscReal rtol, stol;
+    PetscInt max_it, max_f;
+    petsc_check(SNESGetTolerances(snes_, nullptr, &rtol, &stol, &max_it, &max_f));
+    petsc_check(SNESSetTolerances(snes_, std::max(1e-10 * scale_, 1e-50), rtol, stol, max_it, max_f));
+  }
+  petsc_check(SNESSolve(snes_, nullptr, u));
+  SNESConvergedReason reason;
+  petsc_check(SNESGetConvergedReason(snes_, &reason));
+  petsc_check(SNESGetIterationNumber(snes_, &result.newton_iterations));
+  petsc_check(SNESGetLinearSolveIterations(snes_, &result.linear_iterations));
+  result.converged = reason > 0;
+  result.reason = SNESConvergedReasons[reason];
+  if (reason == SNES_DIVERGED_LINEAR_SOLVE) {
+    KSP ksp;
+    KSPConvergedReason linear;
+    petsc_check(SNESGetKSP(snes_, &ksp));
+    petsc_check(KSPGetConvergedReason(ksp, &linear));
+    result.reason += std::string(", the linear solver ended with ") + KSPConvergedReasons[linear];
+  }
+  if (reason == SNES_DIVERGED_FUNCTION_DOMAIN || reason == SNES_DIVERGED_FNORM_NAN) {
+    result.inverted = true;
+    result.reason = "inverted element (det F <= 0) on every trial step of Newton";
+  }
+  return result;
+}
+
+std::vector<std::array<double, 3>> StaticSolver::reactions(Vec u) {
+  local_residual(u);
+  std::vector<std::array<double, 3>> forces(boundary_.faces().size());
+  const PetscScalar *r;
+  petsc_check(VecGetArrayRead(local_r_, &r));
+  for (const auto &[index, face] : boundary_.entries()) forces[face][index % 3] += r[index];
+  petsc_check(VecRestoreArrayRead(local_r_, &r));
+  if (!forces.empty()) {
+    MPI_Allreduce(MPI_IN_PLACE, forces.data(), static_cast<int>(3 * forces.size()), MPI_DOUBLE, MPI_SUM, mesh_.comm);
+  }
+  return forces;
+}
+
+}  // namespace hg

@@ -1,0 +1,89 @@
+/// @file
+/// Newton's method for the equilibrium of one step: internal force(u) = external force(t).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "boundary/boundary.hpp"
+#include "mesh/mesh.hpp"
+#include "operators/solid_operators.hpp"
+#include "options/options.hpp"
+#include "solve/jacobian_mat.hpp"
+
+namespace hg {
+
+/// How a solve ended. A step is to be taken again with a smaller Δt when it did not converge.
+struct SolveResult {
+  bool converged = false;
+  bool inverted = false;  ///< det F <= 0 somewhere in the state that the solver was given or could not leave
+  PetscInt newton_iterations = 0;
+  PetscInt linear_iterations = 0;
+  std::string reason;  ///< in words, for messages
+};
+
+/// From where to where a step goes. FEM solves for the total displacement at t, MPM for the increment from t_from to t.
+struct Step {
+  double t_from = 0;
+  double t = 0;
+  bool increment = false;
+};
+
+/// One SNES for the whole run (options -snes_*, -ksp_*, -pc_*, -mat_type). Defaults: Newton with backtracking, relative
+/// tolerance 1e-8; shell matrix with CG and Jacobi to 1e-6; aij with a direct solver.
+///
+/// A trial step of Newton that would invert an element is halved until it does not.
+class StaticSolver {
+ public:
+  /// Mesh with its constraints, operators and boundary conditions outlive the solver. Collective.
+  StaticSolver(const Mesh &mesh, SolidOperators &operators, const BoundaryConditions &boundary,
+               const RunOptions &options);
+
+  /// To be called once before the first solve and again whenever the operators were built anew. `active_cells` says for
+  /// each local cell whether it holds material; nodes of empty cells only are taken out of the system. Collective.
+  void operators_changed(const std::vector<char> &active_cells);
+
+  /// Solves into u, a global vector of mesh.dm that holds the first guess. Does not throw when Newton fails.
+  /// Collective.
+  SolveResult solve(const Step &step, Vec u);
+
+  /// The local vector of u with the boundary values of the last solve's step, for integrals and output. Collective.
+  void to_local(Vec u, Vec local) const;
+
+  /// Force of the body on each boundary face (in the order of BoundaryConditions::faces()): the sum of internal minus
+  /// external force over its constrained entries, at u and the last solve's step. Collective.
+  std::vector<std::array<double, 3>> reactions(Vec u);
+
+  /// Largest norm of a first residual so far: what rounding is measured with. Part of a checkpoint.
+  double residual_scale() const { return scale_; }
+  void set_residual_scale(double scale) { scale_ = scale; }
+
+  /// For SNES: f = internal − external force at u. Returns false, with f set to NaN, at an inverted element.
+  bool residual(Vec u, Vec f);
+  /// For SNES: linearises at u and updates the matrix.
+  void jacobian(Vec u);
+
+  SNES snes() const { return snes_; }
+  JacobianMat &matrix() { return *jacobian_; }
+
+ private:
+  void local_residual(Vec u);
+  void external_force(const Step &step);
+  void shorten_step(Vec u, Vec y, PetscBool *changed);
+
+  const Mesh &mesh_;
+  SolidOperators &operators_;
+  const BoundaryConditions &boundary_;
+  const RunOptions &options_;
+  double final_time_ = 1;
+  double scale_ = 0;
+  bool keep_tolerance_ = false;  ///< the user gave -snes_atol
+  std::unique_ptr<JacobianMat> jacobian_;
+  std::vector<PetscInt> inactive_;
+  VecHandle residual_, trial_, boundary_values_, local_u_, local_r_, local_load_;
+  CeedVectorHandle ceed_u_, ceed_r_;
+  SnesHandle snes_;
+};
+
+}  // namespace hg
