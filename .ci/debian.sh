@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034  # sourced: the lists are used by the scripts
 # Shared by test.sh and demo.sh: the Debian packages that each needs, and how they are installed.
 
 build_packages="build-essential cmake ninja-build pkg-config petsc-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev
