@@ -7,11 +7,13 @@
 
 namespace {
 
-struct NoneBasis {
-  NoneBasis() { object.is_sentinel = true; }
+/// Never destroyed: programs may still hold the constant when they end.
+union Sentinel {
+  Sentinel() : object() { object.is_sentinel = true; }
+  ~Sentinel() {}
   CeedBasis_private object;
 };
-NoneBasis none;
+Sentinel none;
 
 CeedElemTopology tensor_topology(CeedInt dim) {
   return dim == 1 ? CEED_TOPOLOGY_LINE : dim == 2 ? CEED_TOPOLOGY_QUAD : CEED_TOPOLOGY_HEX;

@@ -253,6 +253,7 @@ int CeedOperatorSetField(CeedOperator op, const char *field_name, CeedElemRestri
       return text("CeedOperator '%s' field '%s': operators at points take tensor-product bases", op->shown_name(),
                   field_name);
     });
+    if (op->is_at_points && (mode == CEED_EVAL_INTERP || mode == CEED_EVAL_GRAD)) hg::require_polynomial(*basis);
     CeedInt num_elem = op->num_elem, num_qpts = op->num_qpts;
     if (rstr != CEED_ELEMRESTRICTION_NONE) agree(num_elem, rstr->num_elem, *op, field_name, "elements");
     CeedOperatorField_private candidate{field->qf_field, hg::Ref(rstr), hg::Ref(basis), hg::Ref(vec)};

@@ -109,8 +109,8 @@ CEED_EXTERN const char *const CeedFESpaces[];
 /// D = grad_1d interp_1d^+ (pseudoinverse), Q_1d by Q_1d, row-major, which takes values at the quadrature points to
 /// derivatives there: D interp_1d = grad_1d. Needs Q_1d >= P_1d and independent columns of interp_1d.
 CEED_EXTERN int CeedBasisGetCollocatedGrad(CeedBasis basis, CeedScalar *colo_grad_1d);
-/// Q_1d by P_1d matrix, row-major, from values at the nodes to the Chebyshev coefficients (of T_0 ... T_(Q_1d-1)) of the
-/// polynomial through the values at the quadrature points.
+/// Q_1d by P_1d matrix, row-major, from values at the nodes to the Chebyshev coefficients (of T_0 ... T_(Q_1d-1)) of
+/// the polynomial through the values at the quadrature points.
 CEED_EXTERN int CeedBasisGetChebyshevInterp1D(CeedBasis basis, CeedScalar *chebyshev_interp_1d);
 /// The 1D basis functions as they are evaluated at arbitrary points: num_coeff by P_1d matrix, row-major, whose entry
 /// (k, j) is the coefficient of the Chebyshev polynomial T_k in the function of node j. P_1d rows for Lagrange bases,

@@ -283,8 +283,8 @@ CEED_EXTERN int CeedElemRestrictionDestroy(CeedElemRestriction *rstr);
 /// @defgroup CeedBasis Bases
 /// Reference elements of tensor-product bases are [-1,1]^dim; nodes and quadrature points are numbered with x fastest.
 /// Arrays for several elements hold one element after another. Within an element: at nodes (node, component), node
-/// fastest; values at points (point, component) and derivatives (point, component, direction), point fastest; quadrature
-/// weights (point).
+/// fastest; values at points (point, component) and derivatives (point, component, direction), point fastest;
+/// quadrature weights one for each point.
 /// @{
 /// Lagrange basis of degree P-1 on Gauss-Lobatto nodes (P = 1: the constant) with Q points a direction, `num_comp`
 /// components. dim 1 to 3, P >= 1, Q >= 1 (>= 2 for Gauss-Lobatto points).
