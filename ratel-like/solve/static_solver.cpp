@@ -172,14 +172,21 @@ void StaticSolver::shorten_step(Vec u, Vec y, PetscBool *changed) {
   }
 }
 
-SolveResult StaticSolver::solve(const Step &step, Vec u) {
+void StaticSolver::load(const Step &step) {
   PetscScalar *values;
   petsc_check(VecGetArray(boundary_values_, &values));
   boundary_.insert(step.t, step.t_from, step.increment ? 1. : 0.,
                    std::span<double>(values, static_cast<std::size_t>(mesh_.local_size)));
   petsc_check(VecRestoreArray(boundary_values_, &values));
   external_force(step);
+}
 
+void StaticSolver::set_time(double t) {
+  load({.t_from = t, .t = t});
+}
+
+SolveResult StaticSolver::solve(const Step &step, Vec u) {
+  load(step);
   SolveResult result;
   if (!residual(u, residual_)) {
     result.inverted = true;

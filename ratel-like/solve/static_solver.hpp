@@ -48,6 +48,9 @@ class StaticSolver {
   /// Collective.
   SolveResult solve(const Step &step, Vec u);
 
+  /// Takes the boundary values and loads of time t, as if a solve had ended there (after a restart).
+  void set_time(double t);
+
   /// The local vector of u with the boundary values of the last solve's step, for integrals and output. Collective.
   void to_local(Vec u, Vec local) const;
 
@@ -69,6 +72,7 @@ class StaticSolver {
 
  private:
   void local_residual(Vec u);
+  void load(const Step &step);
   void external_force(const Step &step);
   void shorten_step(Vec u, Vec y, PetscBool *changed);
 
