@@ -70,7 +70,9 @@ void choose_backends(std::vector<std::string> resources) {
   chosen = std::move(resources);
 }
 
-bool are_chosen() { return !chosen.empty(); }
+bool are_chosen() {
+  return !chosen.empty();
+}
 
 std::vector<Backend> &backends() {
   static std::vector<Backend> list = [] {
