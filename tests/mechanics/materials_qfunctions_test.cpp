@@ -97,6 +97,7 @@ TEST(Integrals, MassWeightAndSums) {
   for (CeedInt num_comp : {1, 3, 6}) {
     HgMassContext context{num_comp};
     const Array u = random.vector(num_comp * Q, -1., 1.), v = run(HgMass, Q, {q_data, u}, {num_comp}, &context)[0];
+    EXPECT_EQ(run_one(HgCopy, Q, {u}, {num_comp}, &context), u);
     for (CeedInt k = 0; k < num_comp * Q; k++) EXPECT_DOUBLE_EQ(v[k], q_data[k % Q] * u[k]);
   }
   EXPECT_EQ(run(HgWeight, Q, {q_data}, {1})[0], Array(q_data.begin(), q_data.begin() + Q));

@@ -23,6 +23,7 @@ const NamedQFunction qfunctions_as_c[] = {
     {HgGeometry, HgGeometry_loc},
     {HgGeometryPoints, HgGeometryPoints_loc},
     {HgMass, HgMass_loc},
+    {HgCopy, HgCopy_loc},
     {HgWeight, HgWeight_loc},
     {HgIntegrals, HgIntegrals_loc},
     {HgLinearResidual, HgLinearResidual_loc},
