@@ -17,9 +17,23 @@ struct CeedVector_private final : CeedObject_private {
   std::uint64_t state = 0;  ///< even: no writer; grows by 2 with every possible change
   std::uint64_t num_readers = 0;
   void *data = nullptr;  ///< of the backend
+
+  bool has_writer() const { return state % 2 == 1; }
+  const CeedVectorOps &ops() const { return ceed->ops.vector; }
 };
 
 namespace hg {
+
+/// Handle -> vector with values; NULL and the sentinels CEED_VECTOR_ACTIVE and CEED_VECTOR_NONE are errors.
+CeedVector_private &deref_vector(CeedVector vec, const char *what = "CeedVector",
+                                 std::source_location where = std::source_location::current());
+/// Throws (CEED_ERROR_ACCESS) unless the array may be written now.
+void require_writable(const CeedVector_private &vec, std::source_location where = std::source_location::current());
+/// Throws (CEED_ERROR_ACCESS) unless the array may be read now.
+void require_readable(const CeedVector_private &vec, std::source_location where = std::source_location::current());
+/// Throws (CEED_ERROR_INCOMPLETE) unless the vector holds values. A vector of length 0 always does.
+void require_values(CeedVector_private &vec, const char *what,
+                    std::source_location where = std::source_location::current());
 
 /// Read access to a host array for a scope.
 class ReadArray {

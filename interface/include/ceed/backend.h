@@ -76,13 +76,15 @@ CEED_EXTERN int CeedElemRestrictionIsAtPoints(CeedElemRestriction rstr, bool *is
 /// Whether both have the same points in the same elements.
 CEED_EXTERN int CeedElemRestrictionAtPointsAreCompatible(CeedElemRestriction rstr_a, CeedElemRestriction rstr_b,
                                                          bool *are_compatible);
-/// Strides (node, component, element); backend strides are given as the numbers they stand for.
+/// Strides (node, component, element) as they were given: CEED_STRIDES_BACKEND stays three zeros, and
+/// CeedElemRestrictionGetLLayout() gives the numbers they stand for.
 CEED_EXTERN int CeedElemRestrictionGetStrides(CeedElemRestriction rstr, CeedInt strides[3]);
 CEED_EXTERN int CeedElemRestrictionHasBackendStrides(CeedElemRestriction rstr, bool *has_backend_strides);
 /// Read access to the offsets; destroying the restriction before Restore is an error.
 CEED_EXTERN int CeedElemRestrictionGetOffsets(CeedElemRestriction rstr, CeedMemType mem_type, const CeedInt **offsets);
 CEED_EXTERN int CeedElemRestrictionRestoreOffsets(CeedElemRestriction rstr, const CeedInt **offsets);
-/// Layout (node, component, element) of the L-vector (strided ones) and of the E-vector.
+/// Layout (node, component, element) of the L-vector (strided ones) and of the E-vector; {1, 0, 0} for an E-vector at
+/// points, where the rest varies: see CeedElemRestrictionGetAtPointsElementOffset().
 CEED_EXTERN int CeedElemRestrictionGetLLayout(CeedElemRestriction rstr, CeedInt layout[3]);
 CEED_EXTERN int CeedElemRestrictionGetELayout(CeedElemRestriction rstr, CeedInt layout[3]);
 /// Where the values of element `elem` start in an E-vector at points.

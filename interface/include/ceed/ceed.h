@@ -168,7 +168,7 @@ CEED_EXTERN int CeedVectorCopy(CeedVector vec, CeedVector vec_copy);
 /// Copies the entries start, start+step, ... below stop (stop < 0: to the end); the rest of vec_copy stays.
 CEED_EXTERN int CeedVectorCopyStrided(CeedVector vec, CeedSize start, CeedSize stop, CeedSize step,
                                       CeedVector vec_copy);
-/// Gives the vector an array of its length.
+/// Gives the vector an array of its length. Values are copied into the array in use, be it lent by the user.
 CEED_EXTERN int CeedVectorSetArray(CeedVector vec, CeedMemType mem_type, CeedCopyMode copy_mode, CeedScalar *array);
 CEED_EXTERN int CeedVectorSetValue(CeedVector vec, CeedScalar value);
 CEED_EXTERN int CeedVectorSetValueStrided(CeedVector vec, CeedSize start, CeedSize stop, CeedSize step,
@@ -199,7 +199,8 @@ CEED_EXTERN int CeedVectorPointwiseMult(CeedVector w, CeedVector x, CeedVector y
 CEED_EXTERN int CeedVectorReciprocal(CeedVector vec);
 CEED_EXTERN int CeedVectorSetNumViewTabs(CeedVector vec, CeedInt num_tabs);
 CEED_EXTERN int CeedVectorGetNumViewTabs(CeedVector vec, CeedInt *num_tabs);
-/// Prints entries start, start+step, ... below stop with the printf format fp_fmt (NULL: "%12.8f").
+/// Prints entries start, start+step, ... below stop (above it for a negative step; stop < 0: to the end) with the printf
+/// format fp_fmt (NULL: "%g").
 CEED_EXTERN int CeedVectorViewRange(CeedVector vec, CeedSize start, CeedSize stop, CeedInt step, const char *fp_fmt,
                                     FILE *stream);
 CEED_EXTERN int CeedVectorView(CeedVector vec, const char *fp_fmt, FILE *stream);
@@ -216,7 +217,7 @@ CEED_EXTERN int CeedRequestWait(CeedRequest *req);
 
 /// @defgroup CeedElemRestriction Element restrictions
 /// An E-vector is laid out as (node, component, element), node fastest, unless the backend says otherwise. At points it
-/// is (component, point) for one element after another, component fastest in storage order of the L-vector.
+/// is (point, component), point fastest, for one element after another, each with its own number of points.
 /// @{
 /// Stands for the input of CeedOperatorApply() and its output.
 CEED_EXTERN const CeedVector CEED_VECTOR_ACTIVE;
@@ -240,18 +241,21 @@ CEED_EXTERN int CeedElemRestrictionCreate(Ceed ceed, CeedInt num_elem, CeedInt e
 CEED_EXTERN int CeedElemRestrictionCreateStrided(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt num_comp,
                                                  CeedSize l_size, const CeedInt strides[3], CeedElemRestriction *rstr);
 /// Points of element e are those at offsets[offsets[e]] ... offsets[offsets[e+1] - 1]: num_elem+1 starts, counted from
-/// the beginning of the array (so the first is num_elem+1), then num_points point numbers. Component c of point i is at
-/// i*num_comp + c.
+/// the beginning of the array (so the first is num_elem+1), then the point numbers, each below l_size / num_comp. A
+/// point may belong to several elements: there are num_points or more of them. Component c of point i is at
+/// i*num_comp + c of the L-vector.
 CEED_EXTERN int CeedElemRestrictionCreateAtPoints(Ceed ceed, CeedInt num_elem, CeedInt num_points, CeedInt num_comp,
                                                   CeedSize l_size, CeedMemType mem_type, CeedCopyMode copy_mode,
                                                   const CeedInt *offsets, CeedElemRestriction *rstr);
 CEED_EXTERN int CeedElemRestrictionReferenceCopy(CeedElemRestriction rstr, CeedElemRestriction *rstr_copy);
 /// Vectors of the right lengths; either may be NULL.
 CEED_EXTERN int CeedElemRestrictionCreateVector(CeedElemRestriction rstr, CeedVector *lvec, CeedVector *evec);
-/// CEED_NOTRANSPOSE: E-vector ru = R u. CEED_TRANSPOSE: L-vector ru += R^T u.
+/// CEED_NOTRANSPOSE: E-vector ru = R u. CEED_TRANSPOSE: L-vector ru += R^T u. The vectors may be longer than needed;
+/// what is beyond stays.
 CEED_EXTERN int CeedElemRestrictionApply(CeedElemRestriction rstr, CeedTransposeMode t_mode, CeedVector u,
                                          CeedVector ru, CeedRequest *request);
-/// The same for the points of one element; the vector of the element may be longer than its points need.
+/// The same for the points of one element: its vector holds component c of its point p at [c*num_points + p], with the
+/// element's own num_points, and may be longer than that.
 CEED_EXTERN int CeedElemRestrictionApplyAtPointsInElement(CeedElemRestriction rstr, CeedInt elem,
                                                           CeedTransposeMode t_mode, CeedVector u, CeedVector ru,
                                                           CeedRequest *request);

@@ -1,0 +1,137 @@
+#include "vector.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+namespace hg::ref {
+
+namespace {
+
+struct Free {
+  void operator()(CeedScalar *array) const noexcept { std::free(array); }
+};
+
+/// The array of a vector: lent by the user, or owned. A lent array stays in use until it is taken back or replaced by
+/// another.
+struct HostArray {
+  std::unique_ptr<CeedScalar[], Free> owned;
+  CeedScalar *borrowed = nullptr;
+
+  CeedScalar *current() const { return borrowed != nullptr ? borrowed : owned.get(); }
+};
+
+HostArray &array_of(CeedVector vec) {
+  HostArray *array = nullptr;
+  CeedVectorGetData(vec, &array);
+  return *array;
+}
+
+CeedSize length_of(CeedVector vec) {
+  CeedSize length = 0;
+  CeedVectorGetLength(vec, &length);
+  return length;
+}
+
+/// Makes sure that there is an array to write to.
+int allocate(CeedVector vec) {
+  HostArray &array = array_of(vec);
+  if (array.current() != nullptr) return CEED_ERROR_SUCCESS;
+  const auto bytes = static_cast<std::size_t>(length_of(vec)) * sizeof(CeedScalar);
+  const std::size_t rounded = std::max<std::size_t>((bytes + CEED_ALIGN - 1) / CEED_ALIGN, 1) * CEED_ALIGN;
+  array.owned.reset(static_cast<CeedScalar *>(std::aligned_alloc(CEED_ALIGN, rounded)));
+  CeedCheck(array.owned, CeedVectorReturnCeed(vec), CEED_ERROR_BACKEND,
+            "Out of memory: a CeedVector of length %" CeedSize_FMT " needs %zu bytes", length_of(vec), bytes);
+  return CEED_ERROR_SUCCESS;
+}
+
+int create(CeedVector vec) {
+  auto *array = new (std::nothrow) HostArray;
+  CeedCheck(array != nullptr, CeedVectorReturnCeed(vec), CEED_ERROR_BACKEND, "Out of memory");
+  return CeedVectorSetData(vec, array);
+}
+
+int destroy(CeedVector vec) {
+  HostArray *array = nullptr;
+  CeedVectorGetData(vec, &array);
+  delete array;
+  return CEED_ERROR_SUCCESS;
+}
+
+int set_array(CeedVector vec, CeedMemType, CeedCopyMode copy_mode, CeedScalar *values) {
+  HostArray &array = array_of(vec);
+  switch (copy_mode) {
+    case CEED_COPY_VALUES:
+      CeedCallBackend(allocate(vec));
+      if (values != array.current()) std::copy_n(values, length_of(vec), array.current());
+      break;
+    case CEED_OWN_POINTER:
+      array.borrowed = nullptr;
+      if (values != array.owned.get()) array.owned.reset(values);
+      break;
+    case CEED_USE_POINTER:
+      array.borrowed = values;
+      if (values == array.owned.get()) {
+        (void)array.owned.release();
+      } else {
+        array.owned.reset();
+      }
+      break;
+  }
+  return CEED_ERROR_SUCCESS;
+}
+
+int take_array(CeedVector vec, CeedMemType, CeedScalar **values) {
+  HostArray &array = array_of(vec);
+  *values = array.borrowed;
+  array.borrowed = nullptr;
+  return CEED_ERROR_SUCCESS;
+}
+
+// A lent array is the only one there is, so it always holds the current values.
+int sync_array(CeedVector, CeedMemType) { return CEED_ERROR_SUCCESS; }
+
+int get_array(CeedVector vec, CeedMemType, CeedScalar **values) {
+  *values = array_of(vec).current();
+  return CEED_ERROR_SUCCESS;
+}
+
+int get_array_read(CeedVector vec, CeedMemType, const CeedScalar **values) {
+  *values = array_of(vec).current();
+  return CEED_ERROR_SUCCESS;
+}
+
+int get_array_write(CeedVector vec, CeedMemType, CeedScalar **values) {
+  CeedCallBackend(allocate(vec));
+  *values = array_of(vec).current();
+  return CEED_ERROR_SUCCESS;
+}
+
+int has_valid_array(CeedVector vec, bool *has_valid_array) {
+  *has_valid_array = array_of(vec).current() != nullptr;
+  return CEED_ERROR_SUCCESS;
+}
+
+int has_borrowed_array(CeedVector vec, CeedMemType, bool *has_borrowed_array) {
+  *has_borrowed_array = array_of(vec).borrowed != nullptr;
+  return CEED_ERROR_SUCCESS;
+}
+
+}  // namespace
+
+void fill_vector_ops(CeedVectorOps &ops) {
+  ops = {};
+  ops.create = create;
+  ops.destroy = destroy;
+  ops.set_array = set_array;
+  ops.take_array = take_array;
+  ops.sync_array = sync_array;
+  ops.get_array = get_array;
+  ops.get_array_read = get_array_read;
+  ops.get_array_write = get_array_write;
+  ops.has_valid_array = has_valid_array;
+  ops.has_borrowed_array = has_borrowed_array;
+}
+
+}  // namespace hg::ref

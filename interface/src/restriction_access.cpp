@@ -1,0 +1,306 @@
+// What an element restriction tells about itself.
+#include <algorithm>
+#include <cstdio>
+
+#include "restriction.hpp"
+#include "vector.hpp"
+
+namespace {
+
+/// Body of the getters.
+template <typename T, typename Get>
+int get(CeedElemRestriction rstr, T *value, Get &&getter) {
+  return hg::guard(hg::ceed_of(rstr), [&] { *value = getter(hg::deref(rstr, "CeedElemRestriction")); });
+}
+
+void require_points(const CeedElemRestriction_private &r,
+                    std::source_location where = std::source_location::current()) {
+  hg::require(r.is_points(), CEED_ERROR_INCOMPATIBLE,
+              "CeedElemRestriction has no points; expected one made by CeedElemRestrictionCreateAtPoints()", where);
+}
+
+void require_strided(const CeedElemRestriction_private &r,
+                     std::source_location where = std::source_location::current()) {
+  hg::require(r.is_strided(), CEED_ERROR_MINOR,
+              "CeedElemRestriction has no strides; expected one made by CeedElemRestrictionCreateStrided()", where);
+}
+
+void require_elem(const CeedElemRestriction_private &r, CeedInt elem,
+                  std::source_location where = std::source_location::current()) {
+  hg::require(elem >= 0 && elem < r.num_elem, CEED_ERROR_DIMENSION, [&] {
+    return hg::text("CeedElemRestriction: element is %" CeedInt_FMT "; expected one in [0, %" CeedInt_FMT ")", elem,
+                    r.num_elem);
+  }, where);
+}
+
+/// The smallest number of points of an element; 0 without elements.
+CeedInt min_points(const CeedElemRestriction_private &r) {
+  CeedInt least = r.elem_size;
+  for (CeedInt e = 0; e < r.num_elem; e++) least = std::min(least, hg::points_in_element(r, e).size);
+  return least;
+}
+
+/// Calls f(i) for the entry i of the L-vector of each component of each node of each element.
+template <typename F>
+void for_each_entry(const CeedElemRestriction_private &r, F &&f) {
+  for (CeedInt e = 0; e < r.num_elem; e++) {
+    const auto points = r.is_points() ? hg::points_in_element(r, e) : hg::PointRange{nullptr, r.elem_size};
+    for (CeedInt n = 0; n < points.size; n++) {
+      for (CeedInt c = 0; c < r.num_comp; c++) {
+        if (r.is_points()) {
+          f(static_cast<CeedSize>(points.points[n]) * r.num_comp + c);
+        } else if (r.is_strided()) {
+          f(static_cast<CeedSize>(n) * r.strides[0] + static_cast<CeedSize>(c) * r.strides[1] +
+            static_cast<CeedSize>(e) * r.strides[2]);
+        } else {
+          f(r.offsets[static_cast<CeedSize>(e) * r.elem_size + n] + static_cast<CeedSize>(c) * r.comp_stride);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+namespace hg {
+
+CeedElemRestriction_private &deref_restriction(CeedElemRestriction rstr, std::source_location where) {
+  deref(rstr, "CeedElemRestriction", where);
+  require(!rstr->is_sentinel, CEED_ERROR_INCOMPATIBLE,
+          "CeedElemRestriction is CEED_ELEMRESTRICTION_NONE; expected one with elements", where);
+  return *rstr;
+}
+
+bool equal(const CeedElemRestriction_private &a, const CeedElemRestriction_private &b) {
+  if (&a == &b) return true;
+  if (a.is_sentinel || b.is_sentinel) return false;
+  if (a.type != b.type || a.num_elem != b.num_elem || a.elem_size != b.elem_size || a.num_points != b.num_points ||
+      a.num_comp != b.num_comp || a.l_size != b.l_size || a.e_size != b.e_size || a.strides != b.strides) {
+    return false;
+  }
+  if (a.num_comp > 1 && a.comp_stride != b.comp_stride) return false;
+  return a.offsets == b.offsets || std::equal(a.offsets, a.offsets + a.num_offsets(), b.offsets);
+}
+
+PointRange points_in_element(const CeedElemRestriction_private &rstr, CeedInt elem) {
+  const CeedInt start = rstr.offsets[elem];
+  return {rstr.offsets + start, rstr.offsets[elem + 1] - start};
+}
+
+}  // namespace hg
+
+CeedSize CeedElemRestriction_private::num_offsets() const {
+  switch (type) {
+    case CEED_RESTRICTION_STRIDED:
+      return 0;
+    case CEED_RESTRICTION_POINTS:
+      return offsets != nullptr ? offsets[num_elem] : 0;
+    default:
+      return static_cast<CeedSize>(num_elem) * elem_size;
+  }
+}
+
+void CeedElemRestriction_private::view(FILE *stream) const {
+  std::fprintf(stream, "%sCeedElemRestriction%s from (%td, %" CeedInt_FMT ") to %" CeedInt_FMT " elements with ",
+               hg::tabs(*this).c_str(), is_points() ? " at points" : "", l_size, num_comp, num_elem);
+  if (is_points()) {
+    std::fprintf(stream, "a maximum of %" CeedInt_FMT " points on an element\n", elem_size);
+  } else if (is_strided()) {
+    const std::array<CeedInt, 3> shown = has_backend_strides ? std::array<CeedInt, 3>{} : strides;
+    std::fprintf(stream,
+                 "%" CeedInt_FMT " nodes each and strides [%" CeedInt_FMT ", %" CeedInt_FMT ", %" CeedInt_FMT "]\n",
+                 elem_size, shown[0], shown[1], shown[2]);
+  } else {
+    std::fprintf(stream, "%" CeedInt_FMT " nodes each and component stride %" CeedInt_FMT "\n", elem_size, comp_stride);
+  }
+}
+
+int CeedElemRestrictionView(CeedElemRestriction rstr, FILE *stream) { return CeedObjectView(rstr, stream); }
+
+int CeedElemRestrictionSetNumViewTabs(CeedElemRestriction rstr, CeedInt num_tabs) {
+  return CeedObjectSetNumViewTabs(rstr, num_tabs);
+}
+
+int CeedElemRestrictionGetNumViewTabs(CeedElemRestriction rstr, CeedInt *num_tabs) {
+  return CeedObjectGetNumViewTabs(rstr, num_tabs);
+}
+
+int CeedElemRestrictionGetCeed(CeedElemRestriction rstr, Ceed *ceed) { return CeedObjectGetCeed(rstr, ceed); }
+
+Ceed CeedElemRestrictionReturnCeed(CeedElemRestriction rstr) { return hg::ceed_of(rstr); }
+
+int CeedElemRestrictionGetCompStride(CeedElemRestriction rstr, CeedInt *comp_stride) {
+  return get(rstr, comp_stride, [](auto &r) { return r.comp_stride; });
+}
+
+int CeedElemRestrictionGetNumElements(CeedElemRestriction rstr, CeedInt *num_elem) {
+  return get(rstr, num_elem, [](auto &r) { return r.num_elem; });
+}
+
+int CeedElemRestrictionGetElementSize(CeedElemRestriction rstr, CeedInt *elem_size) {
+  return get(rstr, elem_size, [](auto &r) { return r.elem_size; });
+}
+
+int CeedElemRestrictionGetLVectorSize(CeedElemRestriction rstr, CeedSize *l_size) {
+  return get(rstr, l_size, [](auto &r) { return r.l_size; });
+}
+
+int CeedElemRestrictionGetEVectorSize(CeedElemRestriction rstr, CeedSize *e_size) {
+  return get(rstr, e_size, [](auto &r) { return r.e_size; });
+}
+
+int CeedElemRestrictionGetNumComponents(CeedElemRestriction rstr, CeedInt *num_comp) {
+  return get(rstr, num_comp, [](auto &r) { return r.num_comp; });
+}
+
+int CeedElemRestrictionGetNumBlocks(CeedElemRestriction rstr, CeedInt *num_block) {
+  return get(rstr, num_block, [](auto &r) { return r.num_elem; });
+}
+
+int CeedElemRestrictionGetBlockSize(CeedElemRestriction rstr, CeedInt *block_size) {
+  return get(rstr, block_size, [](auto &) { return 1; });
+}
+
+int CeedElemRestrictionGetNumPoints(CeedElemRestriction rstr, CeedInt *num_points) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_points(r);
+    *num_points = r.num_points;
+  });
+}
+
+int CeedElemRestrictionGetNumPointsInElement(CeedElemRestriction rstr, CeedInt elem, CeedInt *num_points) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_points(r);
+    require_elem(r, elem);
+    *num_points = hg::points_in_element(r, elem).size;
+  });
+}
+
+int CeedElemRestrictionGetMaxPointsInElement(CeedElemRestriction rstr, CeedInt *max_points) {
+  return CeedElemRestrictionGetMinMaxPointsInElement(rstr, nullptr, max_points);
+}
+
+int CeedElemRestrictionGetMinPointsInElement(CeedElemRestriction rstr, CeedInt *min_points) {
+  return CeedElemRestrictionGetMinMaxPointsInElement(rstr, min_points, nullptr);
+}
+
+int CeedElemRestrictionGetMinMaxPointsInElement(CeedElemRestriction rstr, CeedInt *min_points, CeedInt *max_points) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_points(r);
+    if (min_points != nullptr) *min_points = ::min_points(r);
+    if (max_points != nullptr) *max_points = r.elem_size;
+  });
+}
+
+int CeedElemRestrictionGetMultiplicity(CeedElemRestriction rstr, CeedVector mult) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    auto &vec = hg::deref_vector(mult, "CeedVector of multiplicities");
+    hg::require(vec.length >= r.l_size, CEED_ERROR_DIMENSION, [&] {
+      return hg::text("CeedVector of multiplicities has %td entries; expected at least the L-vector size %td",
+                      vec.length, r.l_size);
+    });
+    const hg::WriteArray array(mult, hg::WriteArray::write_only);
+    std::fill_n(array.data(), vec.length, 0.0);
+    for_each_entry(r, [&](CeedSize i) { array[i] += 1; });
+  });
+}
+
+int CeedElemRestrictionGetType(CeedElemRestriction rstr, CeedRestrictionType *rstr_type) {
+  return get(rstr, rstr_type, [](auto &r) { return r.type; });
+}
+
+int CeedElemRestrictionIsStrided(CeedElemRestriction rstr, bool *is_strided) {
+  return get(rstr, is_strided, [](auto &r) { return r.is_strided(); });
+}
+
+int CeedElemRestrictionIsAtPoints(CeedElemRestriction rstr, bool *is_points) {
+  return get(rstr, is_points, [](auto &r) { return r.is_points(); });
+}
+
+int CeedElemRestrictionAtPointsAreCompatible(CeedElemRestriction rstr_a, CeedElemRestriction rstr_b,
+                                             bool *are_compatible) {
+  return hg::guard(hg::ceed_of(rstr_a), [&] {
+    auto &a = hg::deref_restriction(rstr_a);
+    auto &b = hg::deref_restriction(rstr_b);
+    require_points(a);
+    require_points(b);
+    *are_compatible = a.num_elem == b.num_elem && a.num_offsets() == b.num_offsets() &&
+                      (a.offsets == b.offsets || std::equal(a.offsets, a.offsets + a.num_offsets(), b.offsets));
+  });
+}
+
+int CeedElemRestrictionGetStrides(CeedElemRestriction rstr, CeedInt strides[3]) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_strided(r);
+    std::copy_n(r.has_backend_strides ? CEED_STRIDES_BACKEND : r.strides.data(), 3, strides);
+  });
+}
+
+int CeedElemRestrictionHasBackendStrides(CeedElemRestriction rstr, bool *has_backend_strides) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_strided(r);
+    *has_backend_strides = r.has_backend_strides;
+  });
+}
+
+int CeedElemRestrictionGetOffsets(CeedElemRestriction rstr, CeedMemType mem_type, const CeedInt **offsets) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    hg::require_mem_type(*r.ceed, mem_type, "CeedElemRestrictionGetOffsets");
+    hg::require(mem_type == CEED_MEM_HOST, CEED_ERROR_UNSUPPORTED,
+                "CeedElemRestrictionGetOffsets: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST");
+    *offsets = r.offsets;
+    r.num_readers++;
+  });
+}
+
+int CeedElemRestrictionRestoreOffsets(CeedElemRestriction rstr, const CeedInt **offsets) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    hg::require(r.num_readers > 0, CEED_ERROR_ACCESS,
+                "Cannot restore CeedElemRestriction offsets, access was not granted");
+    r.num_readers--;
+    *offsets = nullptr;
+  });
+}
+
+int CeedElemRestrictionGetLLayout(CeedElemRestriction rstr, CeedInt layout[3]) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_strided(r);
+    std::copy_n(r.strides.data(), 3, layout);
+  });
+}
+
+int CeedElemRestrictionGetELayout(CeedElemRestriction rstr, CeedInt layout[3]) {
+  return hg::guard(hg::ceed_of(rstr),
+                   [&] { std::copy_n(hg::deref_restriction(rstr).e_layout.data(), 3, layout); });
+}
+
+int CeedElemRestrictionGetAtPointsElementOffset(CeedElemRestriction rstr, CeedInt elem, CeedSize *elem_offset) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_points(r);
+    require_elem(r, elem);
+    *elem_offset = (static_cast<CeedSize>(r.offsets[elem]) - r.offsets[0]) * r.num_comp;
+  });
+}
+
+int CeedElemRestrictionGetData(CeedElemRestriction rstr, void *data) {
+  return get(rstr, static_cast<void **>(data), [](auto &r) { return r.data; });
+}
+
+int CeedElemRestrictionSetData(CeedElemRestriction rstr, void *data) {
+  return hg::guard(hg::ceed_of(rstr), [&] { hg::deref_restriction(rstr).data = data; });
+}
+
+int CeedElemRestrictionGetFlopsEstimate(CeedElemRestriction rstr, CeedTransposeMode t_mode, CeedSize *flops) {
+  // Gathering copies; scattering adds each entry of the E-vector once.
+  return get(rstr, flops, [&](auto &r) -> CeedSize { return t_mode == CEED_TRANSPOSE ? r.e_size : 0; });
+}
