@@ -127,6 +127,10 @@ void Bakeoff::apply(CeedVector u, CeedVector v) const {
   check(ceed_, CeedOperatorApply(operator_, u, v, CEED_REQUEST_IMMEDIATE));
 }
 
+void Bakeoff::diagonal(CeedVector d) const {
+  check(ceed_, CeedOperatorLinearAssembleDiagonal(operator_, d, CEED_REQUEST_IMMEDIATE));
+}
+
 Vector Bakeoff::right_hand_side() const {
   const CeedInt num_comp = problem_.num_comp;
   const bool weak = problem_.is_poisson && at_points_;

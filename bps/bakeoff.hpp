@@ -35,6 +35,7 @@ class Bakeoff {
   Bakeoff(Ceed ceed, const Problem &problem, CeedInt degree, const Cells &cells, const PointCloud &cloud);
 
   void apply(CeedVector u, CeedVector v) const;
+  void diagonal(CeedVector d) const;
 
   /// Right-hand side of the manufactured solution (qfunctions/bps/manufactured.h).
   ///

@@ -16,8 +16,14 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Owns one object of the C interface; destroyed when it goes out of scope.
-template <class Object, int (*destroy)(Object *)>
+/// An Error that every rank throws at the same place: one of them may speak for all, and the program may end in order.
+class CollectiveError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Owns one object of a C interface that destroys it through its address; destroyed when it goes out of scope.
+template <class Object, auto destroy>
 class Handle {
  public:
   Handle() = default;

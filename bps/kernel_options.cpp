@@ -4,35 +4,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <limits>
-#include <string_view>
 
 #include "ceed_handles.hpp"
 #include "library.hpp"
+#include "number_list.hpp"
 
 namespace hg::bps {
 
 namespace {
 
 constexpr CeedInt max_degree = 8;
-
-std::vector<std::string> split(const std::string &text) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t comma; (comma = text.find(',', begin)) != std::string::npos; begin = comma + 1)
-    parts.push_back(text.substr(begin, comma - begin));
-  parts.push_back(text.substr(begin));
-  return parts;
-}
-
-template <class Number>
-std::optional<Number> to_number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return value;
-}
 
 std::vector<Problem> parse_problems(const std::vector<std::string> &texts) {
   std::vector<Problem> problems;
@@ -47,17 +28,6 @@ std::vector<Problem> parse_problems(const std::vector<std::string> &texts) {
       }
     }
   return problems;
-}
-
-std::vector<double> parse_dofs(const std::string &text) {
-  std::vector<double> dofs;
-  for (const auto &part : split(text)) {
-    const auto value = to_number<double>(part);
-    if (!value || !(*value >= 8) || *value > 2e9)
-      throw Error(fmt::format("--dofs {}: expected numbers from 8 to 2e9, such as 100000 or 1e4,1e5,1e6", text));
-    dofs.push_back(*value);
-  }
-  return dofs;
 }
 
 std::vector<Placement> parse_placements(const std::string &text) {
@@ -88,19 +58,6 @@ std::vector<std::string> resolve_resources(const std::vector<std::string> &reque
 }
 
 }  // namespace
-
-std::vector<CeedInt> parse_integers(const std::string &option, const std::string &text, CeedInt low, CeedInt high) {
-  std::vector<CeedInt> values;
-  for (const auto &part : split(text)) {
-    const std::size_t dash = part.find('-', 1);
-    const auto first = to_number<CeedInt>(std::string_view(part).substr(0, dash));
-    const auto last = dash == std::string::npos ? first : to_number<CeedInt>(std::string_view(part).substr(dash + 1));
-    if (!first || !last || *first > *last || *first < low || *last > high)
-      throw Error(fmt::format("{} {}: '{}' is not a number or a range within {} to {}", option, text, part, low, high));
-    for (CeedInt value = *first; value <= *last; value++) values.push_back(value);
-  }
-  return values;
-}
 
 ParsedOptions parse_options(int argc, const char *const *argv) {
   CLI::App app{
@@ -143,7 +100,7 @@ ParsedOptions parse_options(int argc, const char *const *argv) {
 
   options.problems = parse_problems(problems);
   options.degrees = parse_integers("--degree", degree, 1, max_degree);
-  options.dofs = parse_dofs(dofs);
+  options.dofs = parse_reals("--dofs", dofs, 8, 2e9);
   if (!points.empty()) options.points = parse_integers("--points", points, 1, 1000000);
   if (!placement.empty()) options.placements = parse_placements(placement);
   if (!options.points.empty() && options.placements.empty()) options.placements = {Placement::uniform};

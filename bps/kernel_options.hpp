@@ -35,7 +35,4 @@ struct ParsedOptions {
 
 ParsedOptions parse_options(int argc, const char *const *argv);
 
-/// `1,2,3`, `1-8`, `1-3,6` as numbers, each in [low, high]. Throws Error that names the option and the bad part.
-std::vector<CeedInt> parse_integers(const std::string &option, const std::string &text, CeedInt low, CeedInt high);
-
 }  // namespace hg::bps

@@ -29,7 +29,7 @@ Context open_ceed(const std::string &resource) {
   return_errors_without_context();
   Context context;
   if (CeedInit(resource.c_str(), context.out()) != CEED_ERROR_SUCCESS || !context) {
-    std::string message = "--ceed " + resource + ": no backend that works here; the library lists";
+    std::string message = "ceed resource " + resource + ": no backend that works here; the library lists";
     for (const auto &name : registered_resources()) message += " " + name;
     throw Error(message);
   }

@@ -43,8 +43,8 @@ Rule midpoint_rule(CeedInt n) {
 CeedInt cube_root(CeedInt per_cell, Placement placement) {
   const auto n = static_cast<CeedInt>(std::lround(std::cbrt(per_cell)));
   if (n < 1 || n * n * n != per_cell) {
-    throw Error("--points " + std::to_string(per_cell) + ": placement " + std::string(name(placement)) +
-                " needs n³ points a cell (1, 8, 27, 64, 125, …)");
+    throw Error(std::to_string(per_cell) + " points a cell: placement " + std::string(name(placement)) +
+                " needs a cube of a whole number (1, 8, 27, 64, 125, …)");
   }
   return n;
 }
@@ -106,7 +106,7 @@ std::string_view name(Placement placement) {
 void require_point_count(Placement placement, CeedInt per_cell) {
   if (placement == Placement::uniform || placement == Placement::gauss) cube_root(per_cell, placement);
   if (placement == Placement::random && per_cell < 1)
-    throw Error("--points " + std::to_string(per_cell) + ": at least one point a cell is needed");
+    throw Error(std::to_string(per_cell) + " points a cell: at least one is needed");
 }
 
 PointCloud place_points(const Cells &cells, const Problem &problem, CeedInt degree, Placement placement,

@@ -60,11 +60,11 @@ void write_records(const std::filesystem::path &file, const std::vector<Record> 
   if (!stream) {
     std::error_code ignored;
     std::filesystem::remove(partial, ignored);
-    throw Error("--json " + file.string() + ": cannot write this file");
+    throw Error("cannot write the records to " + file.string());
   }
   std::error_code error;
   std::filesystem::rename(partial, file, error);
-  if (error) throw Error("--json " + file.string() + ": " + error.message());
+  if (error) throw Error("cannot write the records to " + file.string() + ": " + error.message());
 }
 
 std::string cpu_name() {
