@@ -1,0 +1,169 @@
+// Composite operators: the sum of their parts.
+#include "backends.hpp"
+#include "oracle/affine_operator.hpp"
+#include "oracle/instance.hpp"
+
+namespace {
+
+using namespace hg::test;
+
+class CompositeTest : public BackendTest {};
+
+/// Cases that share the lengths of their active vectors: the mesh of the first, cut and mixed anew.
+std::vector<Case> parts(Random &random, bool at_points, int count) {
+  std::vector<Case> cases;
+  CaseWishes wishes{.dim = 2, .at_points = at_points, .is_square = true, .max_comp = 3};
+  cases.push_back(random_case(random, wishes));
+  while (static_cast<int>(cases.size()) < count) {
+    Case other = random_case(random, wishes);
+    // Stretch or fold the L-vector of the active space to the length of the first.
+    Space &space = other.spaces[0];
+    const CeedSize want = cases[0].spaces[0].l_size;
+    if (space.elem_size * space.num_comp > want) continue;
+    const CeedInt num_nodes = static_cast<CeedInt>(want / space.num_comp);
+    space.comp_stride = num_nodes;
+    space.offsets.clear();
+    for (CeedInt e = 0; e < other.num_elem; e++) {
+      for (const CeedInt node : random.distinct(space.elem_size, num_nodes)) space.offsets.push_back(node);
+    }
+    space.l_size = want;
+    bool is_clean = true;  // a passive vector of that space would have the old length
+    for (const Field &field : other.inputs) is_clean = is_clean && (field.space != 0 || field.is_active());
+    if (is_clean) cases.push_back(std::move(other));
+  }
+  return cases;
+}
+
+void check_sum(Ceed ceed, bool at_points) {
+  for (int seed = 0; seed < 12; seed++) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(4000 + static_cast<std::uint64_t>(seed));
+    const std::vector<Case> cases = parts(random, at_points, 3);
+    std::vector<Instance> instances;
+    Operator all;
+    ok(CeedOperatorCreateComposite(ceed, all.out()));
+    for (const Case &c : cases) {
+      instances.emplace_back(ceed, c);
+      ok(CeedOperatorCompositeAddSub(all, instances.back().op));
+    }
+    const CeedSize n = cases[0].input_size();
+    const Values in = random.reals(n), before = random.reals(n);
+    Values want(n, 0), want_matrix(n * n, 0), want_diagonal(n, 0);
+    CeedSize terms = 0;
+    for (const Case &c : cases) {
+      const Values part = apply(c, in).active, a = matrix(c);
+      for (CeedSize i = 0; i < n; i++) want[i] += part[i];
+      for (CeedSize i = 0; i < n * n; i++) want_matrix[i] += a[i];
+      terms += num_terms(c);
+    }
+    for (CeedSize i = 0; i < n; i++) want_diagonal[i] = want_matrix[i * n + i];
+    const CeedScalar tol = tolerance(terms);
+    expect_close(apply_to(ceed, all, in), want, tol, "sum");
+    const Vector u = make_vector(ceed, in), v = make_vector(ceed, before);
+    ok(CeedOperatorApplyAdd(all, u, v, CEED_REQUEST_IMMEDIATE));
+    for (CeedSize i = 0; i < n; i++) want[i] += before[i];
+    expect_close(values_of(v), want, tol, "added sum");
+    ok(CeedOperatorLinearAssembleDiagonal(all, v, CEED_REQUEST_IMMEDIATE));
+    expect_close(values_of(v), want_diagonal, tol, "diagonal", max_norm(want_matrix));
+    expect_close(dense_from_coordinates(all, ceed, n, n), want_matrix, tol, "matrix");
+  }
+}
+
+TEST_P(CompositeTest, IsTheSumOfItsPartsAtQuadraturePoints) {
+  check_sum(ceed, false);
+}
+TEST_P(CompositeTest, IsTheSumOfItsPartsAtPoints) {
+  check_sum(ceed, true);
+}
+
+/// Sub-operators with other active lengths in and out, one of them without an active input.
+TEST_P(CompositeTest, TakesPartsWithoutActiveInput) {
+  const Box mesh(1, 3, 3);
+  const AffineOperator affine(ceed, mesh, 4, 1, {2, 0, 0, false});
+  // A load: v = c from a passive vector.
+  QFunction qf;
+  ok(CeedQFunctionCreateIdentity(ceed, 1, CEED_EVAL_INTERP, CEED_EVAL_INTERP, qf.out()));
+  const Values c = Random(5).reals(mesh.num_nodes);
+  const Vector passive = make_vector(ceed, c);
+  Operator load, all;
+  ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, load.out()));
+  ok(CeedOperatorSetField(load, "input", affine.rstr, affine.basis, passive));
+  ok(CeedOperatorSetField(load, "output", affine.rstr, affine.basis, CEED_VECTOR_ACTIVE));
+  ok(CeedOperatorCreateComposite(ceed, all.out()));
+  ok(CeedOperatorCompositeAddSub(all, affine.op));
+  ok(CeedOperatorCompositeAddSub(all, load));
+
+  const Values u = Random(6).reals(mesh.num_nodes);
+  Values want = apply_to(ceed, affine.op, u);
+  const Vector v = make_vector(ceed, mesh.num_nodes, 1e30);
+  ok(CeedOperatorApply(load, CEED_VECTOR_NONE, v, CEED_REQUEST_IMMEDIATE));
+  const Values loads = values_of(v);
+  for (std::size_t i = 0; i < want.size(); i++) want[i] += loads[i];
+  expect_close(apply_to(ceed, all, u), want, tolerance(20), "sum with a load");
+}
+
+TEST_P(CompositeTest, ListsItsParts) {
+  const Box mesh(1, 2, 2);
+  const AffineOperator first(ceed, mesh, 3, 1, {1, 0, 0, false}), second(ceed, mesh, 3, 1, {2, 0, 0, false});
+  ok(CeedOperatorSetName(second.op, "the second"));
+  Operator all;
+  ok(CeedOperatorCreateComposite(ceed, all.out()));
+  ok(CeedOperatorCompositeAddSub(all, first.op));
+  ok(CeedOperatorCompositeAddSub(all, second.op));
+  CeedInt count = 0;
+  CeedOperator *subs = nullptr, found = nullptr;
+  ok(CeedOperatorCompositeGetNumSub(all, &count));
+  ASSERT_EQ(count, 2);
+  ok(CeedOperatorCompositeGetSubList(all, &subs));
+  EXPECT_EQ(subs[0], first.op.get());
+  EXPECT_EQ(subs[1], second.op.get());
+  ok(CeedOperatorCompositeGetSubByName(all, "the second", &found));
+  EXPECT_EQ(found, second.op.get());
+  ok(CeedOperatorCompositeGetSubByName(all, "a third", &found));
+  EXPECT_EQ(found, nullptr);
+  bool is_composite = false, is_sequential = true;
+  ok(CeedOperatorIsComposite(all, &is_composite));
+  EXPECT_TRUE(is_composite);
+  ok(CeedOperatorIsComposite(first.op, &is_composite));
+  EXPECT_FALSE(is_composite);
+  ok(CeedOperatorCompositeIsSequential(all, &is_sequential));
+  EXPECT_FALSE(is_sequential);
+  ok(CeedOperatorCompositeSetSequential(all, true));
+  ok(CeedOperatorCompositeIsSequential(all, &is_sequential));
+  EXPECT_TRUE(is_sequential);
+}
+
+/// Sub-operators outlive the handles of those who made them.
+TEST_P(CompositeTest, KeepsItsParts) {
+  const Box mesh(1, 2, 2);
+  Operator all;
+  ok(CeedOperatorCreateComposite(ceed, all.out()));
+  {
+    const AffineOperator part(ceed, mesh, 3, 1, {1, 0, 0, false});
+    ok(CeedOperatorCompositeAddSub(all, part.op));
+  }
+  const Values ones(mesh.num_nodes, 1);
+  EXPECT_NEAR(dot(ones, apply_to(ceed, all, ones)), 4, 100 * tolerance(4));
+}
+
+/// The flops of a composite are those of its parts.
+TEST_P(CompositeTest, CountsTheFlopsOfItsParts) {
+  const Box mesh(1, 2, 2);
+  const AffineOperator first(ceed, mesh, 3, 1, {1, 0, 0, false}), second(ceed, mesh, 5, 1, {2, 0, 0, false});
+  ok(CeedQFunctionSetUserFlopsEstimate(first.qf, 3));
+  ok(CeedQFunctionSetUserFlopsEstimate(second.qf, 3));
+  Operator all;
+  ok(CeedOperatorCreateComposite(ceed, all.out()));
+  ok(CeedOperatorCompositeAddSub(all, first.op));
+  ok(CeedOperatorCompositeAddSub(all, second.op));
+  CeedSize total = 0, a = 0, b = 0;
+  ok(CeedOperatorGetFlopsEstimate(all, &total));
+  ok(CeedOperatorGetFlopsEstimate(first.op, &a));
+  ok(CeedOperatorGetFlopsEstimate(second.op, &b));
+  EXPECT_EQ(total, a + b);
+  EXPECT_GT(b, a);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, CompositeTest, testing::ValuesIn(usable_backends()), backend_name);
+
+}  // namespace
