@@ -13,9 +13,10 @@ namespace hg {
 /// A rule of place, because points are seeded after the mesh is distributed.
 using CellWeightFn = std::function<PetscInt(const double centroid[3])>;
 
-/// Cuts a graph into num_parts by METIS_PartGraphKway with a fixed seed, so that the answer is always the same.
-/// starts: num_vertices + 1; neighbours: by vertex; weights: num_vertices or empty (1). Returns the part of each
-/// vertex; no part is empty unless there are more parts than vertices. Throws hg::Error if METIS fails.
+/// Cuts a graph into num_parts by METIS_PartGraphKway with a fixed seed, so that the
+/// answer is always the same. starts: num_vertices + 1; neighbours: by vertex; weights: num_vertices or empty (1).
+/// Returns the part of each vertex; no part is empty unless there are more parts than vertices. Throws hg::Error if
+/// METIS fails.
 std::vector<PetscInt> partition_graph(std::span<const PetscInt> starts, std::span<const PetscInt> neighbours,
                                       std::span<const PetscInt> weights, PetscInt num_parts);
 

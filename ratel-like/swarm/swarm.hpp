@@ -83,7 +83,8 @@ class Swarm {
 };
 
 /// Scoped access to one field of a swarm as a span in storage order, n × components. The swarm may not be resized or
-/// migrated meanwhile. T must match the field's type; a name or type that the swarm does not have throws hg::Error.
+/// migrated meanwhile, and a field has one accessor at a time. T must match the field's type; a name or type that the
+/// swarm does not have throws hg::Error.
 template <class T>
 class PointField {
  public:
