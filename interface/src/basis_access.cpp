@@ -11,8 +11,7 @@ constexpr CeedScalar rounding = 1e-14;
 /// A 1D table as View prints it: one row stays on the line of its name.
 void print_table(FILE *stream, const std::string &indent, const char *name, CeedInt rows, CeedInt columns,
                  const std::vector<CeedScalar> &values) {
-  std::fprintf(stream, "%s  %-10s", indent.c_str(), name);
-  if (rows > 1) std::fprintf(stream, "\n");
+  std::fprintf(stream, rows > 1 ? "%s  %s\n" : "%s  %-10s", indent.c_str(), name);
   for (CeedInt i = 0; i < rows; i++) {
     if (rows > 1) std::fprintf(stream, "%s    [%" CeedInt_FMT "]", indent.c_str(), i);
     for (CeedInt j = 0; j < columns; j++) {
@@ -117,7 +116,7 @@ void CeedBasis_private::view(FILE *stream) const {
     std::fprintf(stream, "%sCeedBasis NONE\n", in);
     return;
   }
-  std::fprintf(stream, "%sCeedBasis in a %s space on a %s element\n", in, CeedFESpaces[fe_space],
+  std::fprintf(stream, "%sCeedBasis in a %s on a %s element\n", in, CeedFESpaces[fe_space],
                CeedElemTopologies[topology]);
   std::fprintf(stream, "%s  P: %" CeedInt_FMT "\n%s  Q: %" CeedInt_FMT "\n", in, P_1d, in, Q_1d);
   std::fprintf(stream, "%s  dimension: %" CeedInt_FMT "\n%s  field components: %" CeedInt_FMT "\n", in, dim, in,
