@@ -45,6 +45,11 @@ std::vector<CeedVector> passive_outputs(CeedOperator_private &op) {
 
 void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passive passive) {
   hg::check_ready(hg::deref(op, "CeedOperator"));
+  if (op->is_composite && op->subs.empty()) {
+    const bool has_output = out != CEED_VECTOR_NONE && out != CEED_VECTOR_ACTIVE;
+    if (!is_added && has_output) hg::check(CeedVectorSetValue(out, 0.0));
+    return;
+  }
   CeedSize in_length = -1, out_length = -1;
   hg::check(CeedOperatorGetActiveVectorLengths(op, &in_length, &out_length));
   check_vector(*op, in, in_length, "input");

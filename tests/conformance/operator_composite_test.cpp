@@ -1,4 +1,6 @@
 // Composite operators: the sum of their parts.
+#include <cstdlib>
+
 #include "backends.hpp"
 #include "oracle/affine_operator.hpp"
 #include "oracle/instance.hpp"
@@ -162,6 +164,27 @@ TEST_P(CompositeTest, CountsTheFlopsOfItsParts) {
   ok(CeedOperatorGetFlopsEstimate(second.op, &b));
   EXPECT_EQ(total, a + b);
   EXPECT_GT(b, a);
+}
+
+// A process without elements has nothing to add: its composite is zero, for vectors of any length.
+TEST_P(CompositeTest, NoSubOperatorsIsZero) {
+  Operator none;
+  ok(CeedOperatorCreateComposite(ceed, none.out()));
+  const Values some = {1, 2, 3}, zero(3, 0);
+  const Vector u = make_vector(ceed, some), v = make_vector(ceed, some);
+  ok(CeedOperatorApplyAdd(none, u, v, CEED_REQUEST_IMMEDIATE));
+  EXPECT_EQ(values_of(v), some);
+  ok(CeedOperatorApply(none, u, v, CEED_REQUEST_IMMEDIATE));
+  EXPECT_EQ(values_of(v), zero);
+  ok(CeedVectorSetValue(v, 7));
+  ok(CeedOperatorLinearAssembleDiagonal(none, v, CEED_REQUEST_IMMEDIATE));
+  EXPECT_EQ(values_of(v), zero);
+  CeedSize num_entries = -1;
+  CeedInt *rows = nullptr, *cols = nullptr;
+  ok(CeedOperatorLinearAssembleSymbolic(none, &num_entries, &rows, &cols));
+  EXPECT_EQ(num_entries, 0);
+  std::free(rows);
+  std::free(cols);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, CompositeTest, testing::ValuesIn(usable_backends()), backend_name);
