@@ -49,8 +49,8 @@ std::vector<CeedScalar> chebyshev_coefficients(const std::vector<CeedScalar> &po
                                                const std::vector<CeedScalar> &values, CeedInt num_columns);
 /// Throws if a pointer argument of a basis function is NULL; `what` names it and says what it should be.
 void require_argument(const CeedBasis_private &basis, const void *argument, const char *what,
-                      std::source_location where = std::source_location::current());
+                      Where where = Where::current());
 /// A live basis that is not CEED_BASIS_NONE.
-CeedBasis_private &deref_basis(CeedBasis basis, std::source_location where = std::source_location::current());
+CeedBasis_private &deref_basis(CeedBasis basis, Where where = Where::current());
 
 }  // namespace hg

@@ -68,14 +68,14 @@ void require_tensor(const CeedBasis_private &b, const char *what) {
 
 namespace hg {
 
-CeedBasis_private &deref_basis(CeedBasis basis, std::source_location where) {
+CeedBasis_private &deref_basis(CeedBasis basis, Where where) {
   deref(basis, "CeedBasis", where);
   require(!basis->is_sentinel, CEED_ERROR_INCOMPATIBLE, "CeedBasis is CEED_BASIS_NONE; expected a basis with matrices",
           where);
   return *basis;
 }
 
-void require_argument(const CeedBasis_private &, const void *argument, const char *what, std::source_location where) {
+void require_argument(const CeedBasis_private &, const void *argument, const char *what, Where where) {
   require(
       argument != nullptr, CEED_ERROR_INCOMPLETE,
       [&] { return text("CeedBasis: argument is NULL; expected %s", what); }, where);

@@ -7,12 +7,12 @@
 namespace {
 
 CeedQFunctionContext_private &deref_context(CeedQFunctionContext ctx,
-                                            std::source_location where = std::source_location::current()) {
+                                            hg::Where where = hg::Where::current()) {
   return hg::deref(ctx, "CeedQFunctionContext", where);
 }
 
 void require_writable(const CeedQFunctionContext_private &c,
-                      std::source_location where = std::source_location::current()) {
+                      hg::Where where = hg::Where::current()) {
   hg::require(!c.has_writer(), CEED_ERROR_ACCESS,
               "Cannot grant CeedQFunctionContext data access, the access lock is already in use", where);
   hg::require(c.num_readers == 0, CEED_ERROR_ACCESS,
@@ -20,27 +20,27 @@ void require_writable(const CeedQFunctionContext_private &c,
 }
 
 void require_readable(const CeedQFunctionContext_private &c,
-                      std::source_location where = std::source_location::current()) {
+                      hg::Where where = hg::Where::current()) {
   hg::require(!c.has_writer(), CEED_ERROR_ACCESS,
               "Cannot grant CeedQFunctionContext data access, the access lock is already in use", where);
 }
 
 void require_data(const CeedQFunctionContext_private &c,
-                  std::source_location where = std::source_location::current()) {
+                  hg::Where where = hg::Where::current()) {
   hg::require(c.values != nullptr, CEED_ERROR_INCOMPLETE,
               "CeedQFunctionContext holds no data; set them first, with CeedQFunctionContextSetData()", where);
 }
 
 /// QFunctions of host backends read the data where the core keeps them; device backends copy from there.
 void require_host(const CeedQFunctionContext_private &c, CeedMemType mem_type, const char *what,
-                  std::source_location where = std::source_location::current()) {
+                  hg::Where where = hg::Where::current()) {
   hg::require_mem_type(*c.ceed, mem_type, what);
   hg::require(mem_type == CEED_MEM_HOST, CEED_ERROR_UNSUPPORTED,
               [&] { return hg::text("%s: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST", what); }, where);
 }
 
 void require_inside(const CeedQFunctionContext_private &c, const CeedContextFieldLabel_private &label,
-                    std::source_location where = std::source_location::current()) {
+                    hg::Where where = hg::Where::current()) {
   hg::require(label.offset <= c.size && label.size <= c.size - label.offset, CEED_ERROR_DIMENSION, [&] {
     return hg::text("CeedQFunctionContext field \"%s\" takes %zu bytes from offset %zu; expected it within the %zu bytes "
                     "of the data",
@@ -81,7 +81,7 @@ int add_field(CeedQFunctionContext ctx, const char *name, CeedContextFieldType t
 
 /// The label's values in the data of this context. Labels of another context, or of a composite operator, are refused.
 void *field_values(CeedQFunctionContext_private &c, CeedContextFieldLabel label, CeedContextFieldType type,
-                   std::source_location where = std::source_location::current()) {
+                   hg::Where where = hg::Where::current()) {
   hg::require(label != nullptr, CEED_ERROR_UNSUPPORTED,
               "Invalid CeedQFunctionContext field label: it is NULL; expected one from CeedQFunctionContextGetFieldLabel()",
               where);

@@ -56,16 +56,8 @@ std::string text(const char *format, ...) {
   return result;
 }
 
-int report(Ceed ceed, const Error &error) noexcept {
-  const auto &where = error.where();
-  // source_location gives the whole signature; the interface's messages name the function alone.
-  std::string_view name = where.function_name();
-  if (const auto paren = name.find('('); paren != std::string_view::npos) name = name.substr(0, paren);
-  if (const auto space = name.rfind(' '); space != std::string_view::npos) name = name.substr(space + 1);
-  char function[128];
-  std::snprintf(function, sizeof function, "%.*s", static_cast<int>(name.size()), name.data());
-  return CeedErrorImpl(ceed, where.file_name(), static_cast<int>(where.line()), function, error.code(), "%s",
-                       error.what());
+int report(Ceed ceed, const Error &error, const char *function) noexcept {
+  return CeedErrorImpl(ceed, error.where().file, error.where().line, function, error.code(), "%s", error.what());
 }
 
 }  // namespace hg

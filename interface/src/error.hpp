@@ -6,26 +6,35 @@
 
 #include <exception>
 #include <new>
-#include <source_location>
 #include <string>
 #include <string_view>
 #include <utility>
 
 namespace hg {
 
+/// A place in the source. (std::source_location needs a built-in that clang 14 lacks.)
+struct Where {
+  const char *file = "";
+  int line = 0;
+
+  static constexpr Where current(const char *file = __builtin_FILE(), int line = __builtin_LINE()) {
+    return {file, line};
+  }
+};
+
 /// An error on its way to the user: a CeedErrorType and a message, with the place that noticed it.
 class Error : public std::exception {
  public:
-  Error(int code, std::string message, std::source_location where = std::source_location::current())
+  Error(int code, std::string message, Where where = Where::current())
       : code_(code), message_(std::move(message)), where_(where) {}
   const char *what() const noexcept override { return message_.c_str(); }
   int code() const noexcept { return code_; }
-  const std::source_location &where() const noexcept { return where_; }
+  const Where &where() const noexcept { return where_; }
 
  private:
   int code_;
   std::string message_;
-  std::source_location where_;
+  Where where_;
 };
 
 /// An error that a C function has already reported to the handler: only its code travels on.
@@ -40,7 +49,7 @@ struct Reported {
 /// build it with text(). The lambda form `require(cond, code, [&] { return text(...); })` costs nothing when true.
 template <typename Message>
 inline void require(bool condition, int code, Message &&message,
-                    std::source_location where = std::source_location::current()) {
+                    Where where = Where::current()) {
   if (condition) [[likely]]
     return;
   if constexpr (std::is_invocable_v<Message>) {
@@ -55,23 +64,24 @@ inline void check(int code) {
   if (code != CEED_ERROR_SUCCESS) throw Reported{code};
 }
 
-/// Calls the handler of `ceed` (of the process if NULL) with the error. Never throws.
-int report(Ceed ceed, const Error &error) noexcept;
+/// Calls the handler of `ceed` (of the process if NULL) with the error; `function` is the entry point that the user
+/// called. Never throws.
+int report(Ceed ceed, const Error &error, const char *function) noexcept;
 
 /// Runs `f`; what it throws becomes a code after the handler of `ceed` has seen it.
 template <typename F>
-int guard(Ceed ceed, F &&f) noexcept {
+int guard(Ceed ceed, F &&f, const char *function = __builtin_FUNCTION()) noexcept {
   try {
     std::forward<F>(f)();
     return CEED_ERROR_SUCCESS;
   } catch (const Reported &reported) {
     return reported.code;
   } catch (const Error &error) {
-    return report(ceed, error);
+    return report(ceed, error, function);
   } catch (const std::bad_alloc &) {
-    return report(ceed, Error(CEED_ERROR_MAJOR, "Out of memory"));
+    return report(ceed, Error(CEED_ERROR_MAJOR, "Out of memory"), function);
   } catch (const std::exception &error) {
-    return report(ceed, Error(CEED_ERROR_MAJOR, error.what()));
+    return report(ceed, Error(CEED_ERROR_MAJOR, error.what()), function);
   }
 }
 

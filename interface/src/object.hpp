@@ -37,7 +37,7 @@ void dereference(CeedObject_private *object);
 
 /// Handle -> object, with an error that names `what` where it is NULL.
 template <typename T>
-T &deref(T *object, const char *what, std::source_location where = std::source_location::current()) {
+T &deref(T *object, const char *what, Where where = Where::current()) {
   require(object != nullptr, CEED_ERROR_INCOMPLETE, [&] { return text("%s is NULL; expected a live object", what); },
           where);
   return *object;

@@ -19,7 +19,7 @@ Sentinel none;
 using Created = hg::Ref<CeedElemRestriction_private>;
 
 /// A product of sizes as the CeedInt that the interface asks for.
-CeedInt narrow(CeedSize product, const char *what, std::source_location where = std::source_location::current()) {
+CeedInt narrow(CeedSize product, const char *what, hg::Where where = hg::Where::current()) {
   hg::require(product <= std::numeric_limits<CeedInt>::max(), CEED_ERROR_DIMENSION, [&] {
     return hg::text("CeedElemRestriction: %s is %td; expected at most %" CeedInt_FMT ", the largest CeedInt", what,
                     product, std::numeric_limits<CeedInt>::max());
@@ -29,7 +29,7 @@ CeedInt narrow(CeedSize product, const char *what, std::source_location where = 
 
 /// Checks what all kinds share and makes a restriction without a map.
 Created make(Ceed ceed, CeedRestrictionType type, CeedInt num_elem, CeedInt num_comp, CeedSize l_size,
-             const CeedElemRestriction *rstr, std::source_location where = std::source_location::current()) {
+             const CeedElemRestriction *rstr, hg::Where where = hg::Where::current()) {
   hg::deref(ceed, "Ceed", where);
   hg::require(rstr != nullptr, CEED_ERROR_MINOR, "CeedElemRestriction: the address of the handle is NULL", where);
   hg::require(num_elem >= 0, CEED_ERROR_DIMENSION, [&] {
@@ -52,7 +52,7 @@ Created make(Ceed ceed, CeedRestrictionType type, CeedInt num_elem, CeedInt num_
 
 /// Sizes of elements that all have `elem_size` nodes.
 void set_elem_size(CeedElemRestriction_private &r, CeedInt elem_size,
-                   std::source_location where = std::source_location::current()) {
+                   hg::Where where = hg::Where::current()) {
   hg::require(elem_size >= 1, CEED_ERROR_DIMENSION, [&] {
     return hg::text("CeedElemRestriction: element size is %" CeedInt_FMT "; expected 1 node or more", elem_size);
   }, where);
@@ -64,7 +64,7 @@ void set_elem_size(CeedElemRestriction_private &r, CeedInt elem_size,
 }
 
 void require_offsets(const CeedElemRestriction_private &r, CeedMemType mem_type, CeedCopyMode copy_mode,
-                     const CeedInt *offsets, std::source_location where = std::source_location::current()) {
+                     const CeedInt *offsets, hg::Where where = hg::Where::current()) {
   hg::require_mem_type(*r.ceed, mem_type, "CeedElemRestriction offsets");
   hg::require(mem_type == CEED_MEM_HOST, CEED_ERROR_UNSUPPORTED,
               "CeedElemRestriction offsets: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST, where they are "
@@ -105,7 +105,7 @@ CeedInt *adopted(CeedCopyMode copy_mode, const CeedInt *offsets) {
 
 /// Checks starts and point numbers, sets the largest number of points of an element and returns the number of entries.
 CeedInt check_points(CeedElemRestriction_private &r, CeedInt num_points, const CeedInt *offsets,
-                     std::source_location where = std::source_location::current()) {
+                     hg::Where where = hg::Where::current()) {
   const CeedInt num_elem = r.num_elem;
   const CeedInt first = narrow(static_cast<CeedSize>(num_elem) + 1, "number of elements plus one", where);
   hg::require(offsets[0] == first, CEED_ERROR_DIMENSION, [&] {
@@ -143,7 +143,7 @@ CeedInt check_points(CeedElemRestriction_private &r, CeedInt num_points, const C
 }
 
 void require_length(const CeedElemRestriction_private &r, const char *what, const CeedVector_private &vec,
-                    CeedSize needed, std::source_location where = std::source_location::current()) {
+                    CeedSize needed, hg::Where where = hg::Where::current()) {
   hg::require(vec.length >= needed, CEED_ERROR_DIMENSION, [&] {
     return hg::text("%s has %td entries; expected at least %td for a CeedElemRestriction with an L-vector of %td and an "
                     "E-vector of %td entries",

@@ -49,7 +49,7 @@ namespace hg {
 
 /// Handle -> restriction; NULL and CEED_ELEMRESTRICTION_NONE are errors.
 CeedElemRestriction_private &deref_restriction(CeedElemRestriction rstr,
-                                               std::source_location where = std::source_location::current());
+                                               Where where = Where::current());
 /// Whether two restrictions map the same nodes: the same handle, or the same kind, sizes and offsets.
 bool equal(const CeedElemRestriction_private &a, const CeedElemRestriction_private &b);
 /// Points of element `elem` of a restriction at points: their numbers.

@@ -14,19 +14,19 @@ int get(CeedElemRestriction rstr, T *value, Get &&getter) {
 }
 
 void require_points(const CeedElemRestriction_private &r,
-                    std::source_location where = std::source_location::current()) {
+                    hg::Where where = hg::Where::current()) {
   hg::require(r.is_points(), CEED_ERROR_INCOMPATIBLE,
               "CeedElemRestriction has no points; expected one made by CeedElemRestrictionCreateAtPoints()", where);
 }
 
 void require_strided(const CeedElemRestriction_private &r,
-                     std::source_location where = std::source_location::current()) {
+                     hg::Where where = hg::Where::current()) {
   hg::require(r.is_strided(), CEED_ERROR_MINOR,
               "CeedElemRestriction has no strides; expected one made by CeedElemRestrictionCreateStrided()", where);
 }
 
 void require_elem(const CeedElemRestriction_private &r, CeedInt elem,
-                  std::source_location where = std::source_location::current()) {
+                  hg::Where where = hg::Where::current()) {
   hg::require(elem >= 0 && elem < r.num_elem, CEED_ERROR_DIMENSION, [&] {
     return hg::text("CeedElemRestriction: element is %" CeedInt_FMT "; expected one in [0, %" CeedInt_FMT ")", elem,
                     r.num_elem);
@@ -64,7 +64,7 @@ void for_each_entry(const CeedElemRestriction_private &r, F &&f) {
 
 namespace hg {
 
-CeedElemRestriction_private &deref_restriction(CeedElemRestriction rstr, std::source_location where) {
+CeedElemRestriction_private &deref_restriction(CeedElemRestriction rstr, hg::Where where) {
   deref(rstr, "CeedElemRestriction", where);
   require(!rstr->is_sentinel, CEED_ERROR_INCOMPATIBLE,
           "CeedElemRestriction is CEED_ELEMRESTRICTION_NONE; expected one with elements", where);

@@ -40,7 +40,7 @@ void CeedVector_private::view(FILE *stream) const {
 
 namespace hg {
 
-CeedVector_private &deref_vector(CeedVector vec, const char *what, std::source_location where) {
+CeedVector_private &deref_vector(CeedVector vec, const char *what, Where where) {
   deref(vec, what, where);
   require(!vec->is_sentinel, CEED_ERROR_INCOMPATIBLE, [&] {
     return text("%s is %s, which has no array; expected a vector with values", what,
@@ -49,19 +49,19 @@ CeedVector_private &deref_vector(CeedVector vec, const char *what, std::source_l
   return *vec;
 }
 
-void require_writable(const CeedVector_private &vec, std::source_location where) {
+void require_writable(const CeedVector_private &vec, Where where) {
   require(!vec.has_writer(), CEED_ERROR_ACCESS,
           "Cannot grant CeedVector array access, the access lock is already in use", where);
   require(vec.num_readers == 0, CEED_ERROR_ACCESS,
           "Cannot grant CeedVector array access, a process has read access", where);
 }
 
-void require_readable(const CeedVector_private &vec, std::source_location where) {
+void require_readable(const CeedVector_private &vec, Where where) {
   require(!vec.has_writer(), CEED_ERROR_ACCESS,
           "Cannot grant CeedVector read-only array access, the access lock is already in use", where);
 }
 
-void require_values(CeedVector_private &vec, const char *what, std::source_location where) {
+void require_values(CeedVector_private &vec, const char *what, Where where) {
   bool has_values = vec.length == 0;
   if (!has_values) check(vec.ops().has_valid_array(&vec, &has_values));
   require(has_values, CEED_ERROR_INCOMPLETE, [&] {

@@ -10,7 +10,7 @@ using hg::ReadArray;
 using hg::WriteArray;
 
 void require_same_length(const CeedVector_private &a, const char *a_name, const CeedVector_private &b,
-                         const char *b_name, std::source_location where = std::source_location::current()) {
+                         const char *b_name, hg::Where where = hg::Where::current()) {
   hg::require(a.length == b.length, CEED_ERROR_DIMENSION, [&] {
     return hg::text("CeedVectors of different lengths: %s has %td entries, %s has %td; expected the same number", a_name,
                     a.length, b_name, b.length);
@@ -19,7 +19,7 @@ void require_same_length(const CeedVector_private &a, const char *a_name, const 
 
 /// Checks a range with stop < 0 for "to the end" and returns where it ends.
 CeedSize range_end(CeedSize start, CeedSize stop, CeedSize step, CeedSize length,
-                   std::source_location where = std::source_location::current()) {
+                   hg::Where where = hg::Where::current()) {
   hg::require(step >= 1, CEED_ERROR_DIMENSION,
               [&] { return hg::text("Range with step %td; expected a step of at least 1", step); }, where);
   hg::require(stop <= length, CEED_ERROR_DIMENSION, [&] {
@@ -34,7 +34,7 @@ CeedSize range_end(CeedSize start, CeedSize stop, CeedSize step, CeedSize length
 
 /// What a backend function that changes `vec` needs, and what the core does after it.
 template <typename Call>
-void change(CeedVector_private &vec, Call &&call, std::source_location where = std::source_location::current()) {
+void change(CeedVector_private &vec, Call &&call, hg::Where where = hg::Where::current()) {
   hg::require_writable(vec, where);
   hg::check(call());
   vec.state += 2;
