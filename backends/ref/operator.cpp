@@ -49,7 +49,11 @@ class Reader {
 
 class Writer {
  public:
-  explicit Writer(CeedVector vec) : vec_(vec) { chk(CeedVectorGetArray(vec, CEED_MEM_HOST, &array_)); }
+  enum Mode { read_write, write_only };
+  explicit Writer(CeedVector vec, Mode mode = read_write) : vec_(vec) {
+    chk(mode == read_write ? CeedVectorGetArray(vec, CEED_MEM_HOST, &array_)
+                           : CeedVectorGetArrayWrite(vec, CEED_MEM_HOST, &array_));
+  }
   Writer(const Writer &) = delete;
   Writer &operator=(const Writer &) = delete;
   ~Writer() { CeedVectorRestoreArray(vec_, &array_); }
@@ -281,7 +285,7 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
     for (CeedInt s = 0; s < program->num_sources; s++) {
       if (!program->sources[s].is_active) sources[s] = std::make_unique<Reader>(program->sources[s].vec);
     }
-    const Writer assembled(values);
+    const Writer assembled(values, Writer::write_only);
     CeedScalar *element_values = assembled.data();
     const CeedInt num_in = program->num_active_in, num_out = program->num_active_out;
     const ContextData context(program->qf);

@@ -246,7 +246,8 @@ void for_each_element(CeedOperator_private &op, const CeedProgram &program, F &&
     if (count == 0) continue;
     if (!values || values->length < count) {
       CeedVector created = nullptr;
-      hg::check(CeedVectorCreate(op.ceed.get(), std::max(count, chunk_values), &created));
+      const CeedSize all = points_in_range(program, 0, program.num_elem) * num_comp;
+      hg::check(CeedVectorCreate(op.ceed.get(), std::max(count, std::min(all, chunk_values)), &created));
       values = hg::Ref<CeedVector_private>::adopt(created);
     }
     hg::check(op.ceed->ops.op.linear_assemble_qfunction(&op, &program, first, last - first, values.get()));
