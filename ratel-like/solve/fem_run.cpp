@@ -170,7 +170,8 @@ void FemRun::output(bool last) {
 double FemRun::mms_error() {
   solver_.to_local(u_, local_);
   Lend lend(local_, ceed_u_, Access::read);
-  double error = operators_.mms_error_squared(mms_factor(setup_.clock.time(), setup_.clock.max_time()), ceed_u_);
+  double error =
+      operators_.mms_error_squared(mms_amplitude * mms_factor(setup_.clock.time(), setup_.clock.max_time()), ceed_u_);
   MPI_Allreduce(MPI_IN_PLACE, &error, 1, MPI_DOUBLE, MPI_SUM, setup_.comm);
   return std::sqrt(error);
 }

@@ -105,7 +105,8 @@ void MpmRun::update_points() {
     const std::vector<RegionIntegrals> mine = operators_.integrals(ceed_delta_u_);
     for (std::size_t r = 0; r < mine.size(); ++r) record_.regions[r].strain_energy = mine[r].strain_energy;
     if (setup_.options.forcing.kind == BodyForce::Kind::mms && clock.step() == 0) {
-      mms_error_ = operators_.mms_error_squared(mms_factor(clock.next_time(), clock.max_time()), ceed_delta_u_);
+      mms_error_ =
+          operators_.mms_error_squared(mms_amplitude * mms_factor(clock.next_time(), clock.max_time()), ceed_delta_u_);
       MPI_Allreduce(MPI_IN_PLACE, &mms_error_, 1, MPI_DOUBLE, MPI_SUM, setup_.comm);
       mms_error_ = std::sqrt(mms_error_);
     }

@@ -109,7 +109,7 @@ void StaticSolver::external_force(const Step &step) {
   }
   Lend load(local_load_, ceed_r_, Access::write);
   if (options_.forcing.kind == BodyForce::Kind::mms) {
-    operators_.mms_force(mms_factor(step.t, final_time_), ceed_r_);
+    operators_.mms_force(mms_amplitude * mms_factor(step.t, final_time_), ceed_r_);
   } else {
     const BodyForce &force = options_.forcing;
     operators_.body_force(vector_at(force.times, force.vectors, force.ramp, step.t), ceed_r_);
