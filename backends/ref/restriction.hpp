@@ -20,8 +20,8 @@ class ElementMap {
   CeedInt num_nodes(CeedInt e) const { return is_points_ ? offsets_[e + 1] - offsets_[e] : elem_size_; }
   /// Entries of the E-vector before those of element e.
   CeedSize first_entry(CeedInt e) const {
-    const CeedSize nodes = is_points_ ? static_cast<CeedSize>(offsets_[e]) - offsets_[0]
-                                      : static_cast<CeedSize>(e) * elem_size_;
+    const CeedSize nodes =
+        is_points_ ? static_cast<CeedSize>(offsets_[e]) - offsets_[0] : static_cast<CeedSize>(e) * elem_size_;
     return nodes * num_comp_;
   }
   /// Place in the L-vector of component c of node n of element e.

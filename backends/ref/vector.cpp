@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <new>
 
@@ -38,11 +39,15 @@ CeedSize length_of(CeedVector vec) {
 int allocate(CeedVector vec) {
   HostArray &array = array_of(vec);
   if (array.current() != nullptr) return CEED_ERROR_SUCCESS;
-  const auto bytes = static_cast<std::size_t>(length_of(vec)) * sizeof(CeedScalar);
-  const std::size_t rounded = std::max<std::size_t>((bytes + CEED_ALIGN - 1) / CEED_ALIGN, 1) * CEED_ALIGN;
-  array.owned.reset(static_cast<CeedScalar *>(std::aligned_alloc(CEED_ALIGN, rounded)));
+  const CeedSize length = length_of(vec);
+  constexpr CeedSize longest = std::numeric_limits<CeedSize>::max() / sizeof(CeedScalar) - CEED_ALIGN;
+  if (length <= longest) {
+    const auto bytes = std::max<std::size_t>(static_cast<std::size_t>(length) * sizeof(CeedScalar), 1);
+    const std::size_t rounded = (bytes + CEED_ALIGN - 1) / CEED_ALIGN * CEED_ALIGN;
+    array.owned.reset(static_cast<CeedScalar *>(std::aligned_alloc(CEED_ALIGN, rounded)));
+  }
   CeedCheck(array.owned, CeedVectorReturnCeed(vec), CEED_ERROR_BACKEND,
-            "Out of memory: a CeedVector of length %" CeedSize_FMT " needs %zu bytes", length_of(vec), bytes);
+            "Out of memory: no room for a CeedVector of length %" CeedSize_FMT, length);
   return CEED_ERROR_SUCCESS;
 }
 
@@ -90,7 +95,9 @@ int take_array(CeedVector vec, CeedMemType, CeedScalar **values) {
 }
 
 // A lent array is the only one there is, so it always holds the current values.
-int sync_array(CeedVector, CeedMemType) { return CEED_ERROR_SUCCESS; }
+int sync_array(CeedVector, CeedMemType) {
+  return CEED_ERROR_SUCCESS;
+}
 
 int get_array(CeedVector vec, CeedMemType, CeedScalar **values) {
   *values = array_of(vec).current();

@@ -6,27 +6,23 @@
 
 namespace {
 
-CeedQFunctionContext_private &deref_context(CeedQFunctionContext ctx,
-                                            hg::Where where = hg::Where::current()) {
+CeedQFunctionContext_private &deref_context(CeedQFunctionContext ctx, hg::Where where = hg::Where::current()) {
   return hg::deref(ctx, "CeedQFunctionContext", where);
 }
 
-void require_writable(const CeedQFunctionContext_private &c,
-                      hg::Where where = hg::Where::current()) {
+void require_writable(const CeedQFunctionContext_private &c, hg::Where where = hg::Where::current()) {
   hg::require(!c.has_writer(), CEED_ERROR_ACCESS,
               "Cannot grant CeedQFunctionContext data access, the access lock is already in use", where);
   hg::require(c.num_readers == 0, CEED_ERROR_ACCESS,
               "Cannot grant CeedQFunctionContext data access, a process has read access", where);
 }
 
-void require_readable(const CeedQFunctionContext_private &c,
-                      hg::Where where = hg::Where::current()) {
+void require_readable(const CeedQFunctionContext_private &c, hg::Where where = hg::Where::current()) {
   hg::require(!c.has_writer(), CEED_ERROR_ACCESS,
               "Cannot grant CeedQFunctionContext data access, the access lock is already in use", where);
 }
 
-void require_data(const CeedQFunctionContext_private &c,
-                  hg::Where where = hg::Where::current()) {
+void require_data(const CeedQFunctionContext_private &c, hg::Where where = hg::Where::current()) {
   hg::require(c.values != nullptr, CEED_ERROR_INCOMPLETE,
               "CeedQFunctionContext holds no data; set them first, with CeedQFunctionContextSetData()", where);
 }
@@ -35,94 +31,117 @@ void require_data(const CeedQFunctionContext_private &c,
 void require_host(const CeedQFunctionContext_private &c, CeedMemType mem_type, const char *what,
                   hg::Where where = hg::Where::current()) {
   hg::require_mem_type(*c.ceed, mem_type, what);
-  hg::require(mem_type == CEED_MEM_HOST, CEED_ERROR_UNSUPPORTED,
-              [&] { return hg::text("%s: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST", what); }, where);
+  hg::require(
+      mem_type == CEED_MEM_HOST, CEED_ERROR_UNSUPPORTED,
+      [&] { return hg::text("%s: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST", what); }, where);
 }
 
 void require_inside(const CeedQFunctionContext_private &c, const CeedContextFieldLabel_private &label,
                     hg::Where where = hg::Where::current()) {
-  hg::require(label.offset <= c.size && label.size <= c.size - label.offset, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedQFunctionContext field \"%s\" takes %zu bytes from offset %zu; expected it within the %zu bytes "
-                    "of the data",
-                    label.name.c_str(), label.size, label.offset, c.size);
-  }, where);
+  hg::require(
+      label.offset <= c.size && label.size <= c.size - label.offset, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text(
+            "CeedQFunctionContext field \"%s\" takes %zu bytes from offset %zu; expected it within the %zu bytes "
+            "of the data",
+            label.name.c_str(), label.size, label.offset, c.size);
+      },
+      where);
 }
 
 int add_field(CeedQFunctionContext ctx, const char *name, CeedContextFieldType type, std::size_t value_size,
-              std::size_t offset, std::size_t num_values, const char *description) {
-  return hg::guard(hg::ceed_of(ctx), [&] {
-    auto &c = deref_context(ctx);
-    hg::require(name != nullptr && name[0] != '\0', CEED_ERROR_MINOR,
-                "CeedQFunctionContext field: the name is empty; expected text");
-    for (const auto &label : c.labels) {
-      hg::require(label.name != name, CEED_ERROR_UNSUPPORTED, [&] {
-        return hg::text("CeedQFunctionContext field with name \"%s\" already registered; expected a new name", name);
-      });
-    }
-    hg::require(num_values >= 1, CEED_ERROR_DIMENSION, [&] {
-      return hg::text("CeedQFunctionContext field \"%s\" has %zu values; expected 1 or more", name, num_values);
-    });
-    CeedContextFieldLabel_private label;
-    label.name = name;
-    label.description = description != nullptr ? description : "";
-    label.type = type;
-    label.offset = offset;
-    label.num_values = num_values;
-    label.size = num_values * value_size;
-    hg::require(label.size / value_size == num_values, CEED_ERROR_DIMENSION, [&] {
-      return hg::text("CeedQFunctionContext field \"%s\" has %zu values; expected fewer", name, num_values);
-    });
-    // Fields may be registered before there are data; then they are checked when they are used.
-    if (c.values != nullptr) require_inside(c, label);
-    c.labels.push_back(std::move(label));
-    c.label_list.push_back(&c.labels.back());
-  });
+              std::size_t offset, std::size_t num_values, const char *description,
+              const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(ctx),
+      [&] {
+        auto &c = deref_context(ctx);
+        hg::require(name != nullptr && name[0] != '\0', CEED_ERROR_MINOR,
+                    "CeedQFunctionContext field: the name is empty; expected text");
+        for (const auto &label : c.labels) {
+          hg::require(label.name != name, CEED_ERROR_UNSUPPORTED, [&] {
+            return hg::text("CeedQFunctionContext field with name \"%s\" already registered; expected a new name",
+                            name);
+          });
+        }
+        hg::require(num_values >= 1, CEED_ERROR_DIMENSION, [&] {
+          return hg::text("CeedQFunctionContext field \"%s\" has %zu values; expected 1 or more", name, num_values);
+        });
+        CeedContextFieldLabel_private label;
+        label.name = name;
+        label.description = description != nullptr ? description : "";
+        label.type = type;
+        label.offset = offset;
+        label.num_values = num_values;
+        label.size = num_values * value_size;
+        hg::require(label.size / value_size == num_values, CEED_ERROR_DIMENSION, [&] {
+          return hg::text("CeedQFunctionContext field \"%s\" has %zu values; expected fewer", name, num_values);
+        });
+        // Fields may be registered before there are data; then they are checked when they are used.
+        if (c.values != nullptr) require_inside(c, label);
+        c.labels.push_back(std::move(label));
+        c.label_list.push_back(&c.labels.back());
+      },
+      function);
 }
 
 /// The label's values in the data of this context. Labels of another context, or of a composite operator, are refused.
 void *field_values(CeedQFunctionContext_private &c, CeedContextFieldLabel label, CeedContextFieldType type,
                    hg::Where where = hg::Where::current()) {
-  hg::require(label != nullptr, CEED_ERROR_UNSUPPORTED,
-              "Invalid CeedQFunctionContext field label: it is NULL; expected one from CeedQFunctionContextGetFieldLabel()",
-              where);
-  hg::require(std::find(c.label_list.begin(), c.label_list.end(), label) != c.label_list.end(),
-              CEED_ERROR_UNSUPPORTED, [&] {
-                return hg::text("CeedQFunctionContext field label \"%s\" belongs to another object", label->name.c_str());
-              }, where);
-  hg::require(label->type == type, CEED_ERROR_UNSUPPORTED, [&] {
-    return hg::text("CeedQFunctionContext field \"%s\" is registered as %s; expected %s", label->name.c_str(),
-                    CeedContextFieldTypes[label->type], CeedContextFieldTypes[type]);
-  }, where);
+  hg::require(
+      label != nullptr, CEED_ERROR_UNSUPPORTED,
+      "Invalid CeedQFunctionContext field label: it is NULL; expected one from CeedQFunctionContextGetFieldLabel()",
+      where);
+  hg::require(
+      std::find(c.label_list.begin(), c.label_list.end(), label) != c.label_list.end(), CEED_ERROR_UNSUPPORTED,
+      [&] {
+        return hg::text("CeedQFunctionContext field label \"%s\" belongs to another object", label->name.c_str());
+      },
+      where);
+  hg::require(
+      label->type == type, CEED_ERROR_UNSUPPORTED,
+      [&] {
+        return hg::text("CeedQFunctionContext field \"%s\" is registered as %s; expected %s", label->name.c_str(),
+                        CeedContextFieldTypes[label->type], CeedContextFieldTypes[type]);
+      },
+      where);
   require_data(c, where);
   require_inside(c, *label, where);
   return static_cast<char *>(c.values) + label->offset;
 }
 
 template <typename T>
-int set_field(CeedQFunctionContext ctx, CeedContextFieldLabel label, CeedContextFieldType type, const T *values) {
-  return hg::guard(hg::ceed_of(ctx), [&] {
-    auto &c = deref_context(ctx);
-    require_writable(c);
-    void *place = field_values(c, label, type);
-    hg::require(values != nullptr, CEED_ERROR_MINOR, [&] {
-      return hg::text("CeedQFunctionContext field \"%s\": the values are NULL; expected %zu", label->name.c_str(),
-                      label->num_values);
-    });
-    std::memcpy(place, values, label->size);
-    c.state += 2;
-  });
+int set_field(CeedQFunctionContext ctx, CeedContextFieldLabel label, CeedContextFieldType type, const T *values,
+              const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(ctx),
+      [&] {
+        auto &c = deref_context(ctx);
+        require_writable(c);
+        void *place = field_values(c, label, type);
+        hg::require(values != nullptr, CEED_ERROR_MINOR, [&] {
+          return hg::text("CeedQFunctionContext field \"%s\": the values are NULL; expected %zu", label->name.c_str(),
+                          label->num_values);
+        });
+        std::memcpy(place, values, label->size);
+        c.state += 2;
+      },
+      function);
 }
 
 template <typename T>
-int get_field(CeedQFunctionContext ctx, CeedContextFieldLabel label, CeedContextFieldType type,
-              std::size_t *num_values, const T **values) {
-  return hg::guard(hg::ceed_of(ctx), [&] {
-    auto &c = deref_context(ctx);
-    require_readable(c);
-    *values = static_cast<const T *>(field_values(c, label, type));
-    if (num_values != nullptr) *num_values = label->num_values;
-    c.num_readers++;
-  });
+int get_field(CeedQFunctionContext ctx, CeedContextFieldLabel label, CeedContextFieldType type, std::size_t *num_values,
+              const T **values) {
+  return hg::guard(
+      hg::ceed_of(ctx),
+      [&] {
+        auto &c = deref_context(ctx);
+        require_readable(c);
+        *values = static_cast<const T *>(field_values(c, label, type));
+        if (num_values != nullptr) *num_values = label->num_values;
+        c.num_readers++;
+      },
+      function);
 }
 
 template <typename T>
@@ -184,9 +203,8 @@ int CeedQFunctionContextSetData(CeedQFunctionContext ctx, CeedMemType mem_type, 
     auto &c = deref_context(ctx);
     require_writable(c);
     require_host(c, mem_type, "CeedQFunctionContextSetData");
-    hg::require(data != nullptr || size == 0, CEED_ERROR_MINOR, [&] {
-      return hg::text("CeedQFunctionContextSetData: the data are NULL; expected %zu bytes", size);
-    });
+    hg::require(data != nullptr || size == 0, CEED_ERROR_MINOR,
+                [&] { return hg::text("CeedQFunctionContextSetData: the data are NULL; expected %zu bytes", size); });
     std::unique_ptr<void, CeedQFunctionContext_private::Free> block;
     switch (copy_mode) {
       case CEED_COPY_VALUES:
@@ -219,9 +237,10 @@ int CeedQFunctionContextTakeData(CeedQFunctionContext ctx, CeedMemType mem_type,
     require_writable(c);
     require_host(c, mem_type, "CeedQFunctionContextTakeData");
     require_data(c);
-    hg::require(c.is_borrowed(), CEED_ERROR_INCOMPLETE,
-                "CeedQFunctionContext has no borrowed data to take; lend it some with CeedQFunctionContextSetData() and "
-                "CEED_USE_POINTER");
+    hg::require(
+        c.is_borrowed(), CEED_ERROR_INCOMPLETE,
+        "CeedQFunctionContext has no borrowed data to take; lend it some with CeedQFunctionContextSetData() and "
+        "CEED_USE_POINTER");
     if (data != nullptr) *static_cast<void **>(data) = c.values;
     c.values = nullptr;
     c.state += 2;
@@ -294,8 +313,7 @@ int CeedQFunctionContextRegisterInt32(CeedQFunctionContext ctx, const char *fiel
 
 int CeedQFunctionContextRegisterBoolean(CeedQFunctionContext ctx, const char *field_name, size_t field_offset,
                                         size_t num_values, const char *field_description) {
-  return add_field(ctx, field_name, CEED_CONTEXT_FIELD_BOOL, sizeof(bool), field_offset, num_values,
-                   field_description);
+  return add_field(ctx, field_name, CEED_CONTEXT_FIELD_BOOL, sizeof(bool), field_offset, num_values, field_description);
 }
 
 int CeedQFunctionContextGetAllFieldLabels(CeedQFunctionContext ctx, const CeedContextFieldLabel **field_labels,
@@ -312,7 +330,8 @@ int CeedQFunctionContextGetFieldLabel(CeedQFunctionContext ctx, const char *fiel
   return hg::guard(hg::ceed_of(ctx), [&] {
     auto &c = deref_context(ctx);
     hg::require(field_name != nullptr, CEED_ERROR_MINOR, "CeedQFunctionContext field: the name is NULL");
-    const auto found = std::find_if(c.labels.begin(), c.labels.end(), [&](auto &label) { return label.name == field_name; });
+    const auto found =
+        std::find_if(c.labels.begin(), c.labels.end(), [&](auto &label) { return label.name == field_name; });
     *field_label = found != c.labels.end() ? &*found : nullptr;
   });
 }
@@ -342,11 +361,17 @@ int CeedQFunctionContextGetNumViewTabs(CeedQFunctionContext ctx, CeedInt *num_ta
   return CeedObjectGetNumViewTabs(ctx, num_tabs);
 }
 
-int CeedQFunctionContextView(CeedQFunctionContext ctx, FILE *stream) { return CeedObjectView(ctx, stream); }
+int CeedQFunctionContextView(CeedQFunctionContext ctx, FILE *stream) {
+  return CeedObjectView(ctx, stream);
+}
 
-int CeedQFunctionContextGetCeed(CeedQFunctionContext ctx, Ceed *ceed) { return CeedObjectGetCeed(ctx, ceed); }
+int CeedQFunctionContextGetCeed(CeedQFunctionContext ctx, Ceed *ceed) {
+  return CeedObjectGetCeed(ctx, ceed);
+}
 
-Ceed CeedQFunctionContextReturnCeed(CeedQFunctionContext ctx) { return hg::ceed_of(ctx); }
+Ceed CeedQFunctionContextReturnCeed(CeedQFunctionContext ctx) {
+  return hg::ceed_of(ctx);
+}
 
 int CeedQFunctionContextHasValidData(CeedQFunctionContext ctx, bool *has_valid_data) {
   return hg::guard(hg::ceed_of(ctx), [&] { *has_valid_data = deref_context(ctx).values != nullptr; });

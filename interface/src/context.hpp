@@ -30,8 +30,8 @@ struct CeedQFunctionContext_private final : CeedObject_private {
 
   hg::Ref<Ceed_private> ceed;
   std::size_t size = 0;
-  void *values = nullptr;                  ///< the data; NULL until set
-  std::unique_ptr<void, Free> allocated;   ///< the data where the context frees it, else NULL: then it is borrowed
+  void *values = nullptr;                 ///< the data; NULL until set
+  std::unique_ptr<void, Free> allocated;  ///< the data where the context frees it, else NULL: then it is borrowed
   CeedQFunctionContextDataDestroyUser data_destroy = nullptr;
   std::uint64_t state = 0;  ///< even: no writer; grows by 2 with every possible change
   std::uint64_t num_readers = 0;

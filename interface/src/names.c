@@ -1,5 +1,5 @@
-// Names of the enumerations' values. C, for its array designators: programs hold copies of these arrays, so they must be
-// there before any code of the library runs, and the table of topologies has a place for every value below 0x30007.
+// Names of the enumerations' values. C, for its array designators: programs hold copies of these arrays, so they must
+// be there before any code of the library runs, and the table of topologies has a place for every value below 0x30007.
 #include <ceed/backend.h>
 
 static const char *const error_types[] = {
@@ -32,12 +32,9 @@ const char *const CeedTransposeModes[] = {
 };
 
 const char *const CeedEvalModes[] = {
-    [CEED_EVAL_NONE] = "none",
-    [CEED_EVAL_INTERP] = "interpolation",
-    [CEED_EVAL_GRAD] = "gradient",
-    [CEED_EVAL_DIV] = "divergence",
-    [CEED_EVAL_CURL] = "curl",
-    [CEED_EVAL_WEIGHT] = "quadrature weights",
+    [CEED_EVAL_NONE] = "none",     [CEED_EVAL_INTERP] = "interpolation",
+    [CEED_EVAL_GRAD] = "gradient", [CEED_EVAL_DIV] = "divergence",
+    [CEED_EVAL_CURL] = "curl",     [CEED_EVAL_WEIGHT] = "quadrature weights",
 };
 
 const char *const CeedQuadModes[] = {
@@ -46,12 +43,8 @@ const char *const CeedQuadModes[] = {
 };
 
 const char *const CeedElemTopologies[] = {
-    [CEED_TOPOLOGY_LINE] = "line",
-    [CEED_TOPOLOGY_TRIANGLE] = "triangle",
-    [CEED_TOPOLOGY_QUAD] = "quadrilateral",
-    [CEED_TOPOLOGY_TET] = "tetrahedron",
-    [CEED_TOPOLOGY_PYRAMID] = "pyramid",
-    [CEED_TOPOLOGY_PRISM] = "prism",
+    [CEED_TOPOLOGY_LINE] = "line",       [CEED_TOPOLOGY_TRIANGLE] = "triangle", [CEED_TOPOLOGY_QUAD] = "quadrilateral",
+    [CEED_TOPOLOGY_TET] = "tetrahedron", [CEED_TOPOLOGY_PYRAMID] = "pyramid",   [CEED_TOPOLOGY_PRISM] = "prism",
     [CEED_TOPOLOGY_HEX] = "hexahedron",
 };
 

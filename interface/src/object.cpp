@@ -52,7 +52,9 @@ int CeedObjectGetCeed(CeedObject obj, Ceed *ceed) {
   });
 }
 
-Ceed CeedObjectReturnCeed(CeedObject obj) { return hg::ceed_of(obj); }
+Ceed CeedObjectReturnCeed(CeedObject obj) {
+  return hg::ceed_of(obj);
+}
 
 int CeedObjectDestroy(CeedObject *obj) {
   return hg::guard(obj != nullptr ? hg::ceed_of(*obj) : nullptr, [&] { hg::destroy(obj); });

@@ -20,10 +20,13 @@ using Created = hg::Ref<CeedElemRestriction_private>;
 
 /// A product of sizes as the CeedInt that the interface asks for.
 CeedInt narrow(CeedSize product, const char *what, hg::Where where = hg::Where::current()) {
-  hg::require(product <= std::numeric_limits<CeedInt>::max(), CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedElemRestriction: %s is %td; expected at most %" CeedInt_FMT ", the largest CeedInt", what,
-                    product, std::numeric_limits<CeedInt>::max());
-  }, where);
+  hg::require(
+      product <= std::numeric_limits<CeedInt>::max(), CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text("CeedElemRestriction: %s is %td; expected at most %" CeedInt_FMT ", the largest CeedInt", what,
+                        product, std::numeric_limits<CeedInt>::max());
+      },
+      where);
   return static_cast<CeedInt>(product);
 }
 
@@ -32,15 +35,21 @@ Created make(Ceed ceed, CeedRestrictionType type, CeedInt num_elem, CeedInt num_
              const CeedElemRestriction *rstr, hg::Where where = hg::Where::current()) {
   hg::deref(ceed, "Ceed", where);
   hg::require(rstr != nullptr, CEED_ERROR_MINOR, "CeedElemRestriction: the address of the handle is NULL", where);
-  hg::require(num_elem >= 0, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedElemRestriction: number of elements is %" CeedInt_FMT "; expected 0 or more", num_elem);
-  }, where);
-  hg::require(num_comp >= 1, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedElemRestriction: number of components is %" CeedInt_FMT "; expected 1 or more", num_comp);
-  }, where);
-  hg::require(l_size >= 0, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedElemRestriction: L-vector size is %td; expected 0 or more", l_size);
-  }, where);
+  hg::require(
+      num_elem >= 0, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text("CeedElemRestriction: number of elements is %" CeedInt_FMT "; expected 0 or more", num_elem);
+      },
+      where);
+  hg::require(
+      num_comp >= 1, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text("CeedElemRestriction: number of components is %" CeedInt_FMT "; expected 1 or more", num_comp);
+      },
+      where);
+  hg::require(
+      l_size >= 0, CEED_ERROR_DIMENSION,
+      [&] { return hg::text("CeedElemRestriction: L-vector size is %td; expected 0 or more", l_size); }, where);
   auto created = Created::adopt(new CeedElemRestriction_private);
   created->ceed = hg::Ref<Ceed_private>(ceed);
   created->type = type;
@@ -51,11 +60,13 @@ Created make(Ceed ceed, CeedRestrictionType type, CeedInt num_elem, CeedInt num_
 }
 
 /// Sizes of elements that all have `elem_size` nodes.
-void set_elem_size(CeedElemRestriction_private &r, CeedInt elem_size,
-                   hg::Where where = hg::Where::current()) {
-  hg::require(elem_size >= 1, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedElemRestriction: element size is %" CeedInt_FMT "; expected 1 node or more", elem_size);
-  }, where);
+void set_elem_size(CeedElemRestriction_private &r, CeedInt elem_size, hg::Where where = hg::Where::current()) {
+  hg::require(
+      elem_size >= 1, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text("CeedElemRestriction: element size is %" CeedInt_FMT "; expected 1 node or more", elem_size);
+      },
+      where);
   r.elem_size = elem_size;
   const CeedInt elem_stride =
       narrow(static_cast<CeedSize>(elem_size) * r.num_comp, "element size times components", where);
@@ -70,12 +81,15 @@ void require_offsets(const CeedElemRestriction_private &r, CeedMemType mem_type,
               "CeedElemRestriction offsets: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST, where they are "
               "checked",
               where);
-  hg::require(copy_mode == CEED_COPY_VALUES || copy_mode == CEED_USE_POINTER || copy_mode == CEED_OWN_POINTER,
-              CEED_ERROR_MINOR, [&] {
-                return hg::text("CeedElemRestriction offsets: copy mode is %d; expected CEED_COPY_VALUES (0), "
-                                "CEED_USE_POINTER (1) or CEED_OWN_POINTER (2)",
-                                static_cast<int>(copy_mode));
-              }, where);
+  hg::require(
+      copy_mode == CEED_COPY_VALUES || copy_mode == CEED_USE_POINTER || copy_mode == CEED_OWN_POINTER, CEED_ERROR_MINOR,
+      [&] {
+        return hg::text(
+            "CeedElemRestriction offsets: copy mode is %d; expected CEED_COPY_VALUES (0), "
+            "CEED_USE_POINTER (1) or CEED_OWN_POINTER (2)",
+            static_cast<int>(copy_mode));
+      },
+      where);
   hg::require(offsets != nullptr || r.num_elem == 0, CEED_ERROR_MINOR,
               "CeedElemRestriction: the offsets are NULL; expected an array", where);
 }
@@ -108,35 +122,50 @@ CeedInt check_points(CeedElemRestriction_private &r, CeedInt num_points, const C
                      hg::Where where = hg::Where::current()) {
   const CeedInt num_elem = r.num_elem;
   const CeedInt first = narrow(static_cast<CeedSize>(num_elem) + 1, "number of elements plus one", where);
-  hg::require(offsets[0] == first, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedElemRestriction at points: the points of element 0 start at offsets[%" CeedInt_FMT
-                    "]; expected offsets[%" CeedInt_FMT "], after the starts of %" CeedInt_FMT " elements and the end",
-                    offsets[0], first, num_elem);
-  }, where);
+  hg::require(
+      offsets[0] == first, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text("CeedElemRestriction at points: the points of element 0 start at offsets[%" CeedInt_FMT
+                        "]; expected offsets[%" CeedInt_FMT "], after the starts of %" CeedInt_FMT
+                        " elements and the end",
+                        offsets[0], first, num_elem);
+      },
+      where);
   for (CeedInt e = 0; e < num_elem; e++) {
-    hg::require(offsets[e + 1] >= offsets[e], CEED_ERROR_DIMENSION, [&] {
-      return hg::text("CeedElemRestriction at points: the points of element %" CeedInt_FMT " are offsets[%" CeedInt_FMT
-                      "] up to offsets[%" CeedInt_FMT "]; expected an end that is not before the start",
-                      e, offsets[e], offsets[e + 1]);
-    }, where);
+    hg::require(
+        offsets[e + 1] >= offsets[e], CEED_ERROR_DIMENSION,
+        [&] {
+          return hg::text("CeedElemRestriction at points: the points of element %" CeedInt_FMT
+                          " are offsets[%" CeedInt_FMT "] up to offsets[%" CeedInt_FMT
+                          "]; expected an end that is not before the start",
+                          e, offsets[e], offsets[e + 1]);
+        },
+        where);
     r.elem_size = std::max(r.elem_size, offsets[e + 1] - offsets[e]);
   }
   // A point may belong to several elements, so there can be more entries than points.
   const CeedInt num_entries = offsets[num_elem] - first;
-  hg::require(num_entries >= num_points, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedElemRestriction at points: the elements hold %" CeedInt_FMT
-                    " points; expected at least %" CeedInt_FMT ", the number of points",
-                    num_entries, num_points);
-  }, where);
+  hg::require(
+      num_entries >= num_points, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text("CeedElemRestriction at points: the elements hold %" CeedInt_FMT
+                        " points; expected at least %" CeedInt_FMT ", the number of points",
+                        num_entries, num_points);
+      },
+      where);
   const CeedSize num_places = r.l_size / r.num_comp;
   for (CeedInt e = 0; e < num_elem; e++) {
     for (CeedInt i = offsets[e]; i < offsets[e + 1]; i++) {
-      hg::require(offsets[i] >= 0 && offsets[i] < num_places, CEED_ERROR_DIMENSION, [&] {
-        return hg::text("CeedElemRestriction at points: point %" CeedInt_FMT " of element %" CeedInt_FMT
-                        " has the number %" CeedInt_FMT "; expected one in [0, %td), as the L-vector has %td entries of %"
-                        CeedInt_FMT " components",
-                        i - offsets[e], e, offsets[i], num_places, r.l_size, r.num_comp);
-      }, where);
+      hg::require(
+          offsets[i] >= 0 && offsets[i] < num_places, CEED_ERROR_DIMENSION,
+          [&] {
+            return hg::text("CeedElemRestriction at points: point %" CeedInt_FMT " of element %" CeedInt_FMT
+                            " has the number %" CeedInt_FMT
+                            "; expected one in [0, %td), as the L-vector has %td entries of %" CeedInt_FMT
+                            " components",
+                            i - offsets[e], e, offsets[i], num_places, r.l_size, r.num_comp);
+          },
+          where);
     }
   }
   return num_entries;
@@ -144,11 +173,15 @@ CeedInt check_points(CeedElemRestriction_private &r, CeedInt num_points, const C
 
 void require_length(const CeedElemRestriction_private &r, const char *what, const CeedVector_private &vec,
                     CeedSize needed, hg::Where where = hg::Where::current()) {
-  hg::require(vec.length >= needed, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("%s has %td entries; expected at least %td for a CeedElemRestriction with an L-vector of %td and an "
-                    "E-vector of %td entries",
-                    what, vec.length, needed, r.l_size, r.e_size);
-  }, where);
+  hg::require(
+      vec.length >= needed, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text(
+            "%s has %td entries; expected at least %td for a CeedElemRestriction with an L-vector of %td and an "
+            "E-vector of %td entries",
+            what, vec.length, needed, r.l_size, r.e_size);
+      },
+      where);
 }
 
 }  // namespace
@@ -216,8 +249,8 @@ int CeedElemRestrictionCreateStrided(Ceed ceed, CeedInt num_elem, CeedInt elem_s
       last += static_cast<CeedSize>(std::max(sizes[d] - 1, 0)) * r.strides[d];
     }
     hg::require(num_elem == 0 || last < l_size, CEED_ERROR_DIMENSION, [&] {
-      return hg::text("CeedElemRestriction: strides [%" CeedInt_FMT ", %" CeedInt_FMT ", %" CeedInt_FMT "] with %" CeedInt_FMT
-                      " nodes, %" CeedInt_FMT " components and %" CeedInt_FMT
+      return hg::text("CeedElemRestriction: strides [%" CeedInt_FMT ", %" CeedInt_FMT ", %" CeedInt_FMT
+                      "] with %" CeedInt_FMT " nodes, %" CeedInt_FMT " components and %" CeedInt_FMT
                       " elements lead to entry %td; expected less than the L-vector size %td",
                       r.strides[0], r.strides[1], r.strides[2], elem_size, num_comp, num_elem, last, l_size);
     });

@@ -22,18 +22,18 @@ struct CeedElemRestriction_private final : CeedObject_private {
   hg::Ref<Ceed_private> ceed;
   CeedRestrictionType type = CEED_RESTRICTION_STANDARD;
   CeedInt num_elem = 0;
-  CeedInt elem_size = 0;    ///< at points: the largest number of points of an element
-  CeedInt num_points = 0;   ///< at points: points in all
+  CeedInt elem_size = 0;   ///< at points: the largest number of points of an element
+  CeedInt num_points = 0;  ///< at points: points in all
   CeedInt num_comp = 0;
   CeedInt comp_stride = 0;  ///< strided: 0; at points: 1
   CeedSize l_size = 0;
   CeedSize e_size = 0;
   bool has_backend_strides = false;
-  std::array<CeedInt, 3> strides{};   ///< strided: (node, component, element), also where the backend chose them
-  std::array<CeedInt, 3> e_layout{};  ///< (node, component, element); at points {1, 0, 0}: the rest varies
-  std::vector<CeedInt> owned_offsets;              ///< CEED_COPY_VALUES
+  std::array<CeedInt, 3> strides{};    ///< strided: (node, component, element), also where the backend chose them
+  std::array<CeedInt, 3> e_layout{};   ///< (node, component, element); at points {1, 0, 0}: the rest varies
+  std::vector<CeedInt> owned_offsets;  ///< CEED_COPY_VALUES
   std::unique_ptr<CeedInt[], Free> adopted_offsets;  ///< CEED_OWN_POINTER
-  const CeedInt *offsets = nullptr;                ///< one of the two above, or what the user lent
+  const CeedInt *offsets = nullptr;                  ///< one of the two above, or what the user lent
   std::uint64_t num_readers = 0;
   bool is_known_to_backend = false;
   void *data = nullptr;  ///< of the backend
@@ -48,8 +48,7 @@ struct CeedElemRestriction_private final : CeedObject_private {
 namespace hg {
 
 /// Handle -> restriction; NULL and CEED_ELEMRESTRICTION_NONE are errors.
-CeedElemRestriction_private &deref_restriction(CeedElemRestriction rstr,
-                                               Where where = Where::current());
+CeedElemRestriction_private &deref_restriction(CeedElemRestriction rstr, Where where = Where::current());
 /// Whether two restrictions map the same nodes: the same handle, or the same kind, sizes and offsets.
 bool equal(const CeedElemRestriction_private &a, const CeedElemRestriction_private &b);
 /// Points of element `elem` of a restriction at points: their numbers.

@@ -7,30 +7,31 @@
 
 namespace {
 
-/// Body of the getters.
+/// Body of the getters; `function` is the getter.
 template <typename T, typename Get>
-int get(CeedElemRestriction rstr, T *value, Get &&getter) {
-  return hg::guard(hg::ceed_of(rstr), [&] { *value = getter(hg::deref(rstr, "CeedElemRestriction")); });
+int get(CeedElemRestriction rstr, T *value, Get &&getter, const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(rstr), [&] { *value = getter(hg::deref(rstr, "CeedElemRestriction")); }, function);
 }
 
-void require_points(const CeedElemRestriction_private &r,
-                    hg::Where where = hg::Where::current()) {
+void require_points(const CeedElemRestriction_private &r, hg::Where where = hg::Where::current()) {
   hg::require(r.is_points(), CEED_ERROR_INCOMPATIBLE,
               "CeedElemRestriction has no points; expected one made by CeedElemRestrictionCreateAtPoints()", where);
 }
 
-void require_strided(const CeedElemRestriction_private &r,
-                     hg::Where where = hg::Where::current()) {
+void require_strided(const CeedElemRestriction_private &r, hg::Where where = hg::Where::current()) {
   hg::require(r.is_strided(), CEED_ERROR_MINOR,
               "CeedElemRestriction has no strides; expected one made by CeedElemRestrictionCreateStrided()", where);
 }
 
-void require_elem(const CeedElemRestriction_private &r, CeedInt elem,
-                  hg::Where where = hg::Where::current()) {
-  hg::require(elem >= 0 && elem < r.num_elem, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedElemRestriction: element is %" CeedInt_FMT "; expected one in [0, %" CeedInt_FMT ")", elem,
-                    r.num_elem);
-  }, where);
+void require_elem(const CeedElemRestriction_private &r, CeedInt elem, hg::Where where = hg::Where::current()) {
+  hg::require(
+      elem >= 0 && elem < r.num_elem, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text("CeedElemRestriction: element is %" CeedInt_FMT "; expected one in [0, %" CeedInt_FMT ")", elem,
+                        r.num_elem);
+      },
+      where);
 }
 
 /// The smallest number of points of an element; 0 without elements.
@@ -115,7 +116,9 @@ void CeedElemRestriction_private::view(FILE *stream) const {
   }
 }
 
-int CeedElemRestrictionView(CeedElemRestriction rstr, FILE *stream) { return CeedObjectView(rstr, stream); }
+int CeedElemRestrictionView(CeedElemRestriction rstr, FILE *stream) {
+  return CeedObjectView(rstr, stream);
+}
 
 int CeedElemRestrictionSetNumViewTabs(CeedElemRestriction rstr, CeedInt num_tabs) {
   return CeedObjectSetNumViewTabs(rstr, num_tabs);
@@ -125,9 +128,13 @@ int CeedElemRestrictionGetNumViewTabs(CeedElemRestriction rstr, CeedInt *num_tab
   return CeedObjectGetNumViewTabs(rstr, num_tabs);
 }
 
-int CeedElemRestrictionGetCeed(CeedElemRestriction rstr, Ceed *ceed) { return CeedObjectGetCeed(rstr, ceed); }
+int CeedElemRestrictionGetCeed(CeedElemRestriction rstr, Ceed *ceed) {
+  return CeedObjectGetCeed(rstr, ceed);
+}
 
-Ceed CeedElemRestrictionReturnCeed(CeedElemRestriction rstr) { return hg::ceed_of(rstr); }
+Ceed CeedElemRestrictionReturnCeed(CeedElemRestriction rstr) {
+  return hg::ceed_of(rstr);
+}
 
 int CeedElemRestrictionGetCompStride(CeedElemRestriction rstr, CeedInt *comp_stride) {
   return get(rstr, comp_stride, [](auto &r) { return r.comp_stride; });
@@ -279,8 +286,7 @@ int CeedElemRestrictionGetLLayout(CeedElemRestriction rstr, CeedInt layout[3]) {
 }
 
 int CeedElemRestrictionGetELayout(CeedElemRestriction rstr, CeedInt layout[3]) {
-  return hg::guard(hg::ceed_of(rstr),
-                   [&] { std::copy_n(hg::deref_restriction(rstr).e_layout.data(), 3, layout); });
+  return hg::guard(hg::ceed_of(rstr), [&] { std::copy_n(hg::deref_restriction(rstr).e_layout.data(), 3, layout); });
 }
 
 int CeedElemRestrictionGetAtPointsElementOffset(CeedElemRestriction rstr, CeedInt elem, CeedSize *elem_offset) {

@@ -42,18 +42,21 @@ namespace hg {
 
 CeedVector_private &deref_vector(CeedVector vec, const char *what, Where where) {
   deref(vec, what, where);
-  require(!vec->is_sentinel, CEED_ERROR_INCOMPATIBLE, [&] {
-    return text("%s is %s, which has no array; expected a vector with values", what,
-                vec == CEED_VECTOR_ACTIVE ? "CEED_VECTOR_ACTIVE" : "CEED_VECTOR_NONE");
-  }, where);
+  require(
+      !vec->is_sentinel, CEED_ERROR_INCOMPATIBLE,
+      [&] {
+        return text("%s is %s, which has no array; expected a vector with values", what,
+                    vec == CEED_VECTOR_ACTIVE ? "CEED_VECTOR_ACTIVE" : "CEED_VECTOR_NONE");
+      },
+      where);
   return *vec;
 }
 
 void require_writable(const CeedVector_private &vec, Where where) {
   require(!vec.has_writer(), CEED_ERROR_ACCESS,
           "Cannot grant CeedVector array access, the access lock is already in use", where);
-  require(vec.num_readers == 0, CEED_ERROR_ACCESS,
-          "Cannot grant CeedVector array access, a process has read access", where);
+  require(vec.num_readers == 0, CEED_ERROR_ACCESS, "Cannot grant CeedVector array access, a process has read access",
+          where);
 }
 
 void require_readable(const CeedVector_private &vec, Where where) {
@@ -64,10 +67,14 @@ void require_readable(const CeedVector_private &vec, Where where) {
 void require_values(CeedVector_private &vec, const char *what, Where where) {
   bool has_values = vec.length == 0;
   if (!has_values) check(vec.ops().has_valid_array(&vec, &has_values));
-  require(has_values, CEED_ERROR_INCOMPLETE, [&] {
-    return text("%s of length %td holds no values; set them first, with CeedVectorSetValue() or CeedVectorSetArray()",
-                what, vec.length);
-  }, where);
+  require(
+      has_values, CEED_ERROR_INCOMPLETE,
+      [&] {
+        return text(
+            "%s of length %td holds no values; set them first, with CeedVectorSetValue() or CeedVectorSetArray()", what,
+            vec.length);
+      },
+      where);
 }
 
 }  // namespace hg
@@ -78,9 +85,8 @@ int CeedVectorCreate(Ceed ceed, CeedSize len, CeedVector *vec) {
     hg::require(vec != nullptr, CEED_ERROR_MINOR, "CeedVectorCreate: the address of the vector is NULL");
     hg::require(len >= 0, CEED_ERROR_DIMENSION,
                 [&] { return hg::text("Length of a CeedVector is %td; expected 0 or more", len); });
-    hg::require(ceed->ops.vector.create != nullptr, CEED_ERROR_UNSUPPORTED, [&] {
-      return hg::text("Backend does not implement CeedVectorCreate (%s)", ceed->resource.c_str());
-    });
+    hg::require(ceed->ops.vector.create != nullptr, CEED_ERROR_UNSUPPORTED,
+                [&] { return hg::text("Backend does not implement CeedVectorCreate (%s)", ceed->resource.c_str()); });
     auto created = hg::Ref<CeedVector_private>::adopt(new CeedVector_private);
     created->ceed = hg::Ref<Ceed_private>(ceed);
     created->length = len;
@@ -108,13 +114,13 @@ int CeedVectorSetArray(CeedVector vec, CeedMemType mem_type, CeedCopyMode copy_m
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorSetArray");
     hg::require(copy_mode == CEED_COPY_VALUES || copy_mode == CEED_USE_POINTER || copy_mode == CEED_OWN_POINTER,
                 CEED_ERROR_MINOR, [&] {
-                  return hg::text("CeedVectorSetArray: copy mode is %d; expected CEED_COPY_VALUES (0), "
-                                  "CEED_USE_POINTER (1) or CEED_OWN_POINTER (2)",
-                                  static_cast<int>(copy_mode));
+                  return hg::text(
+                      "CeedVectorSetArray: copy mode is %d; expected CEED_COPY_VALUES (0), "
+                      "CEED_USE_POINTER (1) or CEED_OWN_POINTER (2)",
+                      static_cast<int>(copy_mode));
                 });
-    hg::require(array != nullptr || v.length == 0, CEED_ERROR_MINOR, [&] {
-      return hg::text("CeedVectorSetArray: the array is NULL; expected %td entries", v.length);
-    });
+    hg::require(array != nullptr || v.length == 0, CEED_ERROR_MINOR,
+                [&] { return hg::text("CeedVectorSetArray: the array is NULL; expected %td entries", v.length); });
     hg::check(v.ops().set_array(vec, mem_type, copy_mode, array));
     v.state += 2;
   });
@@ -140,9 +146,10 @@ int CeedVectorTakeArray(CeedVector vec, CeedMemType mem_type, CeedScalar **array
     hg::check(v.ops().has_borrowed_array(vec, mem_type, &has_borrowed));
     // An empty vector may have been lent a NULL array.
     hg::require(has_borrowed || v.length == 0, CEED_ERROR_INCOMPLETE, [&] {
-      return hg::text("CeedVector of length %td has no borrowed %s array to take; lend it one with CeedVectorSetArray() "
-                      "and CEED_USE_POINTER",
-                      v.length, CeedMemTypes[mem_type]);
+      return hg::text(
+          "CeedVector of length %td has no borrowed %s array to take; lend it one with CeedVectorSetArray() "
+          "and CEED_USE_POINTER",
+          v.length, CeedMemTypes[mem_type]);
     });
     CeedScalar *taken = nullptr;
     hg::check(v.ops().take_array(vec, mem_type, &taken));
@@ -186,8 +193,7 @@ int CeedVectorGetArrayWrite(CeedVector vec, CeedMemType mem_type, CeedScalar **a
 int CeedVectorRestoreArray(CeedVector vec, CeedScalar **array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
-    hg::require(v.has_writer(), CEED_ERROR_ACCESS,
-                "Cannot restore CeedVector array access, access was not granted");
+    hg::require(v.has_writer(), CEED_ERROR_ACCESS, "Cannot restore CeedVector array access, access was not granted");
     if (v.ops().restore_array != nullptr) hg::check(v.ops().restore_array(vec));
     if (array != nullptr) *array = nullptr;
     v.state++;
@@ -210,23 +216,29 @@ int CeedVectorGetLength(CeedVector vec, CeedSize *length) {
   return hg::guard(hg::ceed_of(vec), [&] { *length = hg::deref(vec, "CeedVector").length; });
 }
 
-int CeedVectorGetCeed(CeedVector vec, Ceed *ceed) { return CeedObjectGetCeed(vec, ceed); }
+int CeedVectorGetCeed(CeedVector vec, Ceed *ceed) {
+  return CeedObjectGetCeed(vec, ceed);
+}
 
-Ceed CeedVectorReturnCeed(CeedVector vec) { return hg::ceed_of(vec); }
+Ceed CeedVectorReturnCeed(CeedVector vec) {
+  return hg::ceed_of(vec);
+}
 
-int CeedVectorSetNumViewTabs(CeedVector vec, CeedInt num_tabs) { return CeedObjectSetNumViewTabs(vec, num_tabs); }
+int CeedVectorSetNumViewTabs(CeedVector vec, CeedInt num_tabs) {
+  return CeedObjectSetNumViewTabs(vec, num_tabs);
+}
 
-int CeedVectorGetNumViewTabs(CeedVector vec, CeedInt *num_tabs) { return CeedObjectGetNumViewTabs(vec, num_tabs); }
+int CeedVectorGetNumViewTabs(CeedVector vec, CeedInt *num_tabs) {
+  return CeedObjectGetNumViewTabs(vec, num_tabs);
+}
 
-int CeedVectorViewRange(CeedVector vec, CeedSize start, CeedSize stop, CeedInt step, const char *fp_fmt,
-                        FILE *stream) {
+int CeedVectorViewRange(CeedVector vec, CeedSize start, CeedSize stop, CeedInt step, const char *fp_fmt, FILE *stream) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref(vec, "CeedVector");
     hg::require(stream != nullptr, CEED_ERROR_MINOR, "CeedVectorView: the stream is NULL; expected an open file");
     hg::require(step != 0, CEED_ERROR_MINOR, "View range 'step' must be nonzero");
-    hg::require(start >= 0 && start <= v.length, CEED_ERROR_DIMENSION, [&] {
-      return hg::text("View range starts at %td; expected an index in [0, %td]", start, v.length);
-    });
+    hg::require(start >= 0 && start <= v.length, CEED_ERROR_DIMENSION,
+                [&] { return hg::text("View range starts at %td; expected an index in [0, %td]", start, v.length); });
     const std::string indent = hg::tabs(v);
     const char *tab = indent.c_str();
     std::fprintf(stream, "%sCeedVector length %td\n", tab, v.length);

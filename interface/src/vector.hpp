@@ -25,15 +25,13 @@ struct CeedVector_private final : CeedObject_private {
 namespace hg {
 
 /// Handle -> vector with values; NULL and the sentinels CEED_VECTOR_ACTIVE and CEED_VECTOR_NONE are errors.
-CeedVector_private &deref_vector(CeedVector vec, const char *what = "CeedVector",
-                                 Where where = Where::current());
+CeedVector_private &deref_vector(CeedVector vec, const char *what = "CeedVector", Where where = Where::current());
 /// Throws (CEED_ERROR_ACCESS) unless the array may be written now.
 void require_writable(const CeedVector_private &vec, Where where = Where::current());
 /// Throws (CEED_ERROR_ACCESS) unless the array may be read now.
 void require_readable(const CeedVector_private &vec, Where where = Where::current());
 /// Throws (CEED_ERROR_INCOMPLETE) unless the vector holds values. A vector of length 0 always does.
-void require_values(CeedVector_private &vec, const char *what,
-                    Where where = Where::current());
+void require_values(CeedVector_private &vec, const char *what, Where where = Where::current());
 
 /// Read access to a host array for a scope.
 class ReadArray {

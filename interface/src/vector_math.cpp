@@ -11,24 +11,32 @@ using hg::WriteArray;
 
 void require_same_length(const CeedVector_private &a, const char *a_name, const CeedVector_private &b,
                          const char *b_name, hg::Where where = hg::Where::current()) {
-  hg::require(a.length == b.length, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("CeedVectors of different lengths: %s has %td entries, %s has %td; expected the same number", a_name,
-                    a.length, b_name, b.length);
-  }, where);
+  hg::require(
+      a.length == b.length, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text("CeedVectors of different lengths: %s has %td entries, %s has %td; expected the same number",
+                        a_name, a.length, b_name, b.length);
+      },
+      where);
 }
 
 /// Checks a range with stop < 0 for "to the end" and returns where it ends.
 CeedSize range_end(CeedSize start, CeedSize stop, CeedSize step, CeedSize length,
                    hg::Where where = hg::Where::current()) {
-  hg::require(step >= 1, CEED_ERROR_DIMENSION,
-              [&] { return hg::text("Range with step %td; expected a step of at least 1", step); }, where);
-  hg::require(stop <= length, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("Range with stop %td; expected at most the length %td, or a negative number for the end", stop,
-                    length);
-  }, where);
+  hg::require(
+      step >= 1, CEED_ERROR_DIMENSION,
+      [&] { return hg::text("Range with step %td; expected a step of at least 1", step); }, where);
+  hg::require(
+      stop <= length, CEED_ERROR_DIMENSION,
+      [&] {
+        return hg::text("Range with stop %td; expected at most the length %td, or a negative number for the end", stop,
+                        length);
+      },
+      where);
   const CeedSize end = stop < 0 ? length : stop;
-  hg::require(start >= 0 && start <= end, CEED_ERROR_DIMENSION,
-              [&] { return hg::text("Range with start %td; expected a value in [0, %td]", start, end); }, where);
+  hg::require(
+      start >= 0 && start <= end, CEED_ERROR_DIMENSION,
+      [&] { return hg::text("Range with start %td; expected a value in [0, %td]", start, end); }, where);
   return end;
 }
 
