@@ -219,7 +219,9 @@ TEST_P(RestrictionConformance, WorksOnTheVectorsItMakes) {
     EXPECT_EQ(length_of(e), e_size(map));
     ok(CeedVectorSetValue(l, 2.0));
     ok(CeedElemRestrictionApply(map.rstr, CEED_NOTRANSPOSE, l, e, CEED_REQUEST_IMMEDIATE));
-    if (e_size(map) > 0) EXPECT_EQ(values_of(e), Values(zeros(e_size(map)).size(), 2.0));
+    if (e_size(map) > 0) {
+      EXPECT_EQ(values_of(e), Values(zeros(e_size(map)).size(), 2.0));
+    }
     ok(CeedElemRestrictionCreateVector(map.rstr, nullptr, nullptr));
   });
 }
