@@ -131,7 +131,7 @@ int set_field(CeedQFunctionContext ctx, CeedContextFieldLabel label, CeedContext
 
 template <typename T>
 int get_field(CeedQFunctionContext ctx, CeedContextFieldLabel label, CeedContextFieldType type, std::size_t *num_values,
-              const T **values) {
+              const T **values, const char *function = __builtin_FUNCTION()) {
   return hg::guard(
       hg::ceed_of(ctx),
       [&] {
@@ -152,7 +152,12 @@ int restore_field(CeedQFunctionContext ctx, const T **values) {
 }  // namespace
 
 void CeedQFunctionContext_private::forget() {
-  if (values != nullptr && data_destroy != nullptr) hg::check(data_destroy(values));
+  if (values != nullptr && data_destroy != nullptr) {
+    const int code = data_destroy(values);
+    hg::require(code == CEED_ERROR_SUCCESS, CEED_ERROR_MAJOR, [&] {
+      return hg::text("CeedQFunctionContext: the function that destroys the data returned %d; expected 0", code);
+    });
+  }
   values = nullptr;
   allocated.reset();
 }
