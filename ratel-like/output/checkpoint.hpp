@@ -32,7 +32,8 @@ void write_checkpoint(MPI_Comm comm, const std::string &path, const CellGrid &gr
 /// vector of another size, points where none are expected or the other way round. Collective.
 void read_checkpoint(MPI_Comm comm, const std::string &path, const CellGrid &grid, Checkpoint &state);
 
-/// When to write: -checkpoint <file> (default: none), -checkpoint_interval <steps> (1); -restart <file>.
+/// When to write: -checkpoint <file> (default: none), -checkpoint_interval <steps> (1; the last step is always
+/// written); -restart <file>.
 struct CheckpointOptions {
   std::string file;
   PetscInt interval = 1;

@@ -4,8 +4,9 @@
 
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "output/series.hpp"
 
 namespace hg {
 
@@ -41,13 +42,9 @@ class MeshWriter {
              std::span<const CellField> cells = {});
 
  private:
-  struct Entry {
-    PetscInt step;
-    PetscReal time;
-  };
   MPI_Comm comm_;
   std::string prefix_;
-  std::vector<Entry> entries_;
+  TimeSeries series_;
 };
 
 }  // namespace hg

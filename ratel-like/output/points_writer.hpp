@@ -3,14 +3,14 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
+#include "output/series.hpp"
 #include "swarm/swarm.hpp"
 
 namespace hg {
 
 /// A field computed outside the swarm to write with the points: n × components, storage order.
-/// Components 1, 3, 6 (xx yy zz yz xz xy, written as a full tensor) or 9.
+/// Components 1, 3, 6 (a symmetric tensor xx yy zz yz xz xy, written as nine) or 9.
 struct ExtraPointField {
   std::string name;
   PetscInt components = 1;
@@ -32,15 +32,9 @@ class PointsWriter {
   void write(PetscInt step, PetscReal time, const Swarm &swarm, std::span<const ExtraPointField> extra = {});
 
  private:
-  struct Entry {
-    PetscInt step;
-    PetscReal time;
-    PetscInt num_points;
-    std::vector<std::pair<std::string, PetscInt>> extra;
-  };
   MPI_Comm comm_;
   std::string prefix_;
-  std::vector<Entry> entries_;
+  TimeSeries series_;
 };
 
 }  // namespace hg
