@@ -93,6 +93,12 @@ void check_points(const CeedOperator_private &op) {
   });
   for (const auto *list : {&op.input_list, &op.output_list}) {
     for (const CeedOperatorField field : *list) {
+      const CeedBasis basis = field->basis.get();
+      require(basis == CEED_BASIS_NONE || basis->dim == op.points_rstr->num_comp, CEED_ERROR_DIMENSION, [&] {
+        return text("CeedOperator '%s' field '%s': the basis has dimension %" CeedInt_FMT
+                    "; the points have %" CeedInt_FMT " coordinates each",
+                    op.shown_name(), field->qf_field->name.c_str(), basis->dim, op.points_rstr->num_comp);
+      });
       if (!field->rstr->is_points()) continue;
       bool are_compatible = false;
       hg::check(CeedElemRestrictionAtPointsAreCompatible(op.points_rstr.get(), field->rstr.get(), &are_compatible));
