@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "view.hpp"
+
 namespace {
 
 hg::Ref<CeedOperator_private> create(Ceed ceed) {
@@ -44,44 +46,49 @@ CeedOperator_private::~CeedOperator_private() {
 }
 
 void CeedOperator_private::view(FILE *stream, bool with_fields) const {
-  const std::string indent = hg::tabs(*this);
-  const char *s = indent.c_str();
-  const std::string title = name.empty() ? "" : " - " + name;
-  if (is_composite) {
-    std::fprintf(stream, "%sComposite CeedOperator%s\n", s, title.c_str());
-    for (std::size_t i = 0; i < subs.size(); i++) {
-      std::fprintf(stream, "%s  SubOperator %zu%s%s:\n", s, i, subs[i]->name.empty() ? "" : " - ",
-                   subs[i]->name.c_str());
-      const CeedInt old_tabs = subs[i]->num_view_tabs;
-      subs[i]->num_view_tabs = num_view_tabs + 1;
-      subs[i]->view(stream, with_fields);
-      subs[i]->num_view_tabs = old_tabs;
-    }
+  const hg::Lines line(stream, num_view_tabs);
+  line(0, "%sCeedOperator%s%s", is_composite ? "Composite " : "", name.empty() ? "" : " - ", name.c_str());
+  if (!is_composite) {
+    if (with_fields) view_fields(stream, num_view_tabs);
     return;
   }
-  std::fprintf(stream, "%sCeedOperator%s\n%s  %" CeedInt_FMT " elements with %" CeedInt_FMT " quadrature points each%s\n",
-               s, title.c_str(), s, num_elem, num_qpts, is_at_points ? " max" : "");
-  const auto total = input_list.size() + output_list.size();
-  std::fprintf(stream, "%s  %zu field%s\n", s, total, total == 1 ? "" : "s");
-  const auto print = [&](const char *what, const std::vector<CeedOperatorField> &fields) {
-    std::fprintf(stream, "%s  %zu %s field%s:\n", s, fields.size(), what, fields.size() == 1 ? "" : "s");
+  for (std::size_t i = 0; i < subs.size(); i++) {
+    const CeedOperator_private &sub = *subs[i];
+    line(1, "SubOperator %zu%s%s%s", i, sub.name.empty() ? "" : " - ", sub.name.c_str(), with_fields ? ":" : "");
+    if (!with_fields) continue;
+    if (sub.is_composite) {
+      sub.view(stream, with_fields);
+    } else {
+      sub.view_fields(stream, num_view_tabs + 1);
+    }
+  }
+}
+
+void CeedOperator_private::view_fields(FILE *stream, CeedInt tabs) const {
+  const hg::Lines line(stream, tabs);
+  line(1, "%" CeedInt_FMT " elements with %" CeedInt_FMT " quadrature points each%s", num_elem, num_qpts,
+       is_at_points ? " max" : "");
+  const std::size_t total = input_list.size() + output_list.size();
+  line(1, "%zu field%s", total, hg::plural(total));
+  const auto print = [&](const char *what, const char *title, const std::vector<CeedOperatorField> &fields) {
+    line(1, "%zu %s field%s:", fields.size(), what, hg::plural(fields.size()));
     for (std::size_t i = 0; i < fields.size(); i++) {
-      const CeedOperatorField field = fields[i];
-      std::fprintf(stream, "%s    %s field %zu:\n%s      Name: \"%s\"\n", s, what, i, s, field->qf_field->name.c_str());
-      if (!with_fields) continue;
-      std::fprintf(stream, "%s      Size: %" CeedInt_FMT "\n%s      EvalMode: %s\n", s, field->qf_field->size, s,
-                   CeedEvalModes[field->qf_field->eval_mode]);
-      if (!field->is_set()) {
-        std::fprintf(stream, "%s      Not set\n", s);
+      const CeedOperatorField_private &field = *fields[i];
+      line(2, "%s field %zu:", title, i);
+      line(3, "Name: \"%s\"", field.qf_field->name.c_str());
+      line(3, "Size: %" CeedInt_FMT, field.qf_field->size);
+      line(3, "EvalMode: %s", CeedEvalModes[field.qf_field->eval_mode]);
+      if (!field.is_set()) {
+        line(3, "Not set");
         continue;
       }
-      if (field->basis.get() == CEED_BASIS_NONE) std::fprintf(stream, "%s      No basis\n", s);
-      if (field->is_active()) std::fprintf(stream, "%s      Active vector\n", s);
-      if (field->vec.get() == CEED_VECTOR_NONE) std::fprintf(stream, "%s      No vector\n", s);
+      if (field.basis.get() == CEED_BASIS_NONE) line(3, "No basis");
+      if (field.is_active()) line(3, "Active vector");
+      if (field.vec.get() == CEED_VECTOR_NONE) line(3, "No vector");
     }
   };
-  print("input", input_list);
-  print("output", output_list);
+  print("input", "Input", input_list);
+  print("output", "Output", output_list);
 }
 
 int CeedOperatorCreate(Ceed ceed, CeedQFunction qf, CeedQFunction, CeedQFunction, CeedOperator *op) {

@@ -27,6 +27,8 @@ struct CeedOperator_private final : CeedObject_private {
   ~CeedOperator_private() override;
   void view(FILE *stream) const override { view(stream, true); }
   void view(FILE *stream, bool with_fields) const;
+  /// What stands below the title of a single operator.
+  void view_fields(FILE *stream, CeedInt tabs) const;
   Ceed owner() const override { return ceed.get(); }
 
   hg::Ref<Ceed_private> ceed;

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "vector.hpp"
+#include "view.hpp"
 
 namespace {
 
@@ -108,20 +109,20 @@ CeedQFunction_private::~CeedQFunction_private() {
 }
 
 void CeedQFunction_private::view(FILE *stream) const {
-  const std::string indent = hg::tabs(*this);
-  const char *kind = gallery_name.empty() ? "User" : "Gallery";
-  const char *shown = gallery_name.empty() ? kernel_name.c_str() : gallery_name.c_str();
-  std::fprintf(stream, "%s%s CeedQFunction - %s\n", indent.c_str(), kind, shown);
-  const auto print = [&](const char *what, const std::vector<CeedQFunctionField> &fields) {
-    std::fprintf(stream, "%s  %zu %s field%s:\n", indent.c_str(), fields.size(), what, fields.size() == 1 ? "" : "s");
+  const hg::Lines line(stream, num_view_tabs);
+  line(0, "%s CeedQFunction - %s", gallery_name.empty() ? "User" : "Gallery",
+       gallery_name.empty() ? kernel_name.c_str() : gallery_name.c_str());
+  const auto print = [&](const char *what, const char *title, const std::vector<CeedQFunctionField> &fields) {
+    line(1, "%zu %s field%s:", fields.size(), what, hg::plural(fields.size()));
     for (std::size_t i = 0; i < fields.size(); i++) {
-      std::fprintf(stream, "%s    %s field %zu:\n%s      Name: \"%s\"\n%s      Size: %" CeedInt_FMT "\n%s      EvalMode: \"%s\"\n",
-                   indent.c_str(), what, i, indent.c_str(), fields[i]->name.c_str(), indent.c_str(), fields[i]->size,
-                   indent.c_str(), CeedEvalModes[fields[i]->eval_mode]);
+      line(2, "%s field %zu:", title, i);
+      line(3, "Name: \"%s\"", fields[i]->name.c_str());
+      line(3, "Size: %" CeedInt_FMT, fields[i]->size);
+      line(3, "EvalMode: \"%s\"", CeedEvalModes[fields[i]->eval_mode]);
     }
   };
-  print("input", input_list);
-  print("output", output_list);
+  print("input", "Input", input_list);
+  print("output", "Output", output_list);
 }
 
 int CeedQFunctionRegister(const char *name, const char *source, CeedInt vec_length, CeedQFunctionUser f,
