@@ -79,17 +79,10 @@ void run(MPI_Comm comm) {
 
 int main(int argc, char **argv) {
   try {
-    require_options_files(argc, argv);
-  } catch (const hg::Error &error) {
-    std::fprintf(stderr, "honeyguide: error: %s\n", error.what());
-    return 1;
-  }
-  if (PetscInitialize(&argc, &argv, nullptr, help_text)) {
-    std::fprintf(stderr, "honeyguide: error: the options could not be read\n");
-    return 1;
-  }
-  try {
+    // Before PETSc starts, so that a mistake in an options file ends in one line too.
     hg::PetscErrorScope errors;
+    require_options_files(argc, argv);
+    hg::petsc_check(PetscInitialize(&argc, &argv, nullptr, help_text));
     run(PETSC_COMM_WORLD);
   } catch (const std::exception &error) {
     hg::abort_run(error.what());

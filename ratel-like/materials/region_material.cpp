@@ -19,6 +19,7 @@ RegionMaterial read_region_material(MPI_Comm comm, const Region &region) {
   std::string model;
   if (!region.prefix.empty() && common.given("model")) model = common.string("model", known.c_str(), "");
   model = group.string("model", known.c_str(), model);
+  if (model.empty() && group.helping()) model = materials()[0]->name;
   if (model.empty()) fail("%s is missing: %s", group.full("model").c_str(), known.c_str());
 
   RegionMaterial filling;

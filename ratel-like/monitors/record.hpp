@@ -26,7 +26,7 @@ struct Record {
   std::array<double, 3> momentum{};  ///< kg m/s
   std::vector<Region> regions;
   std::vector<std::array<double, 3>> probes;     ///< displacement of each probe
-  std::vector<std::array<double, 3>> reactions;  ///< force of the body on each boundary face
+  std::vector<std::array<double, 3>> reactions;  ///< force on the body through each boundary face
 };
 
 /// Columns of the tables.

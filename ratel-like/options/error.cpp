@@ -87,8 +87,12 @@ PetscErrorCode raise_in_petsc(const char *message, const std::source_location &w
 
 void abort_run(const char *message) {
   int rank = 0, size = 1;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  int started = 0;
+  MPI_Initialized(&started);
+  if (started) {
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+  }
   // An error that every rank meets is printed by rank 0 alone: it ends the run before the others wake up.
   if (rank != 0) usleep(300000);
   std::fflush(stdout);
@@ -98,7 +102,7 @@ void abort_run(const char *message) {
     std::fprintf(stderr, "honeyguide: error: %s\n", message);
   }
   std::fflush(stderr);
-  if (size > 1) MPI_Abort(PETSC_COMM_WORLD, 1);
+  if (size > 1) MPI_Abort(MPI_COMM_WORLD, 1);
   std::_Exit(1);
 }
 

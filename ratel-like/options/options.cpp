@@ -95,7 +95,7 @@ double OptionGroup::real(const char *name, const char *help, double fallback, Ra
 double OptionGroup::required_real(const char *name, const char *help, Range range) {
   describe(name, "required", help);
   if (!given(name)) {
-    if (help_) return 1;
+    if (help_) return range.contains(1) ? 1 : range.max / 2;  // the run ends before the value matters
     fail("option %s is missing (%s): expected %s", full(name).c_str(), help, range.text().c_str());
   }
   const bool printed = std::exchange(help_, false);

@@ -16,11 +16,10 @@ Clock::Clock(MPI_Comm comm) {
   smallest_ = group.real("ts_adapt_dt_min", "smallest step that is tried; default: 1e-6 of -ts_max_time [s]",
                          1e-6 * max_time_, Range::positive());
   petsc_check(TSCreate(comm, ts_.put()));
-  petsc_check(TSSetProblemType(ts_, TS_NONLINEAR));
-  petsc_check(TSSetType(ts_, TSBEULER));
-  petsc_check(TSSetMaxTime(ts_, max_time_));
-  petsc_check(TSSetTimeStep(ts_, nominal_dt_));
-  petsc_check(TSSetFromOptions(ts_));
+  petsc_check(TSMonitorSetFromOptions(ts_, "-ts_monitor", "Monitor time and step size", "TSMonitorDefault",
+                                      TSMonitorDefault, nullptr));
+  petsc_check(TSMonitorSetFromOptions(ts_, "-ts_monitor_solution", "View the solution vector", "TSMonitorSolution",
+                                      TSMonitorSolution, nullptr));
   dt_ = nominal_dt_;
 }
 

@@ -10,8 +10,9 @@
 
 namespace hg {
 
-/// The times t_k = k · ts_dt are always met, whatever was halved between them; the last is -ts_max_time. A PETSc TS
-/// holds the options (-ts_dt, -ts_max_time, -ts_max_steps, -ts_adapt_dt_min) and the monitors (-ts_monitor).
+/// The times t_k = k · ts_dt are always met, whatever was halved between them; the last is -ts_max_time. Options:
+/// -ts_dt, -ts_max_time, -ts_max_steps, -ts_adapt_dt_min; a PETSc TS holds the monitors (-ts_monitor,
+/// -ts_monitor_solution).
 class Clock {
  public:
   /// Defaults: -ts_max_time 1, -ts_dt a tenth of it, smallest step 1e-6 of it. Collective.

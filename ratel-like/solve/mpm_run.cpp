@@ -99,6 +99,7 @@ void MpmRun::solve() {
 void MpmRun::update_points() {
   StageScope stage(Stage::update);
   Clock &clock = setup_.clock;
+  record_.reactions = solver_.reactions(delta_u_);
   solver_.to_local(delta_u_, local_);
   {
     Lend lend(local_, ceed_delta_u_, Access::read);
@@ -113,7 +114,6 @@ void MpmRun::update_points() {
     if (series_) diagnostics_ = operators_.point_diagnostics(ceed_delta_u_);
     operators_.update_points(ceed_delta_u_, clock.dt(), swarm_);
   }
-  record_.reactions = solver_.reactions(delta_u_);
   record_.dt = clock.dt();
   located_ = false;
   clock.accept();

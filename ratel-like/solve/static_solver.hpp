@@ -54,8 +54,8 @@ class StaticSolver {
   /// The local vector of u with the boundary values of the last solve's step, for integrals and output. Collective.
   void to_local(Vec u, Vec local) const;
 
-  /// Force of the body on each boundary face (in the order of BoundaryConditions::faces()): the sum of internal minus
-  /// external force over its constrained entries, at u and the last solve's step. Collective.
+  /// Force on the body through each boundary face (in the order of BoundaryConditions::faces()): the sum of internal
+  /// minus external force over its constrained entries, at u and the last solve's step. Collective.
   std::vector<std::array<double, 3>> reactions(Vec u);
 
   /// Largest norm of a first residual so far: what rounding is measured with. Part of a checkpoint.
