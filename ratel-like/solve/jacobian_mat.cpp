@@ -43,17 +43,17 @@ JacobianMat::JacobianMat(const Mesh &mesh, Type type) : mesh_(mesh), type_(type)
   ceed_check(CeedVectorCreate(mesh.ceed, mesh.local_size, ceed_out_.put()));
 
   VecHandle global;
-  PetscInt rows;
   petsc_check(DMCreateGlobalVector(mesh.dm, global.put()));
-  petsc_check(VecGetLocalSize(global, &rows));
+  petsc_check(VecGetLocalSize(global, &num_rows_));
+  petsc_check(VecGetOwnershipRange(global, &first_row_, nullptr));
   if (type == Type::shell) {
-    petsc_check(MatCreateShell(mesh.comm, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE, this, mat_.put()));
+    petsc_check(MatCreateShell(mesh.comm, num_rows_, num_rows_, PETSC_DETERMINE, PETSC_DETERMINE, this, mat_.put()));
     petsc_check(MatShellSetOperation(mat_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply_callback)));
     petsc_check(MatShellSetOperation(mat_, MATOP_MULT_TRANSPOSE, reinterpret_cast<void (*)()>(multiply_callback)));
     petsc_check(MatShellSetOperation(mat_, MATOP_GET_DIAGONAL, reinterpret_cast<void (*)()>(diagonal_callback)));
   } else {
     petsc_check(MatCreate(mesh.comm, mat_.put()));
-    petsc_check(MatSetSizes(mat_, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));
+    petsc_check(MatSetSizes(mat_, num_rows_, num_rows_, PETSC_DETERMINE, PETSC_DETERMINE));
     petsc_check(MatSetType(mat_, MATAIJ));
     petsc_check(MatSetOption(mat_, MAT_SYMMETRIC, PETSC_TRUE));
   }
@@ -83,23 +83,21 @@ void JacobianMat::pattern() {
   ceed_check(CeedOperatorLinearAssembleSymbolic(op_, &count, &rows, &columns));
   const std::unique_ptr<CeedInt, decltype(&std::free)> own_rows(rows, std::free), own_columns(columns, std::free);
   int same = static_cast<CeedSize>(rows_.size()) == count && std::equal(rows_.begin(), rows_.end(), rows) &&
-             std::equal(columns_.begin(), columns_.end(), columns) && inactive_ == pattern_inactive_ && entries_;
+             std::equal(columns_.begin(), columns_.end(), columns) && entries_;
   int all_same = 0;
   MPI_Allreduce(&same, &all_same, 1, MPI_INT, MPI_MIN, mesh_.comm);
   if (all_same) return;
   rows_.assign(rows, rows + count);
   columns_.assign(columns, columns + count);
-  pattern_inactive_ = inactive_;
   ceed_check(CeedVectorCreate(mesh_.ceed, count, entries_.put()));
 
-  PetscInt first, end;
-  petsc_check(MatGetOwnershipRange(mat_, &first, &end));
-  std::vector<PetscInt> i(count + inactive_.size()), j(i.size());
+  // Every row has its diagonal, also where no cell contributes, so that the pattern outlives a change of inactive rows.
+  std::vector<PetscInt> i(count + num_rows_), j(i.size());
   for (CeedSize k = 0; k < count; ++k) {
     i[k] = global_index_[rows_[k]];
     j[k] = global_index_[columns_[k]];
   }
-  for (std::size_t k = 0; k < inactive_.size(); ++k) i[count + k] = j[count + k] = first + inactive_[k];
+  for (PetscInt row = 0; row < num_rows_; ++row) i[count + row] = j[count + row] = first_row_ + row;
   petsc_check(MatSetPreallocationCOO(mat_, static_cast<PetscCount>(i.size()), i.data(), j.data()));
 }
 
@@ -112,11 +110,13 @@ void JacobianMat::update() {
     ceed_check(CeedVectorGetArrayRead(entries_, CEED_MEM_HOST, &values));
     std::vector<PetscScalar> all(values, values + count);
     ceed_check(CeedVectorRestoreArrayRead(entries_, &values));
-    all.resize(count + inactive_.size(), 1.);
+    all.resize(count + num_rows_, 0.);
+    for (PetscInt row : inactive_) all[count + row] = 1.;
     petsc_check(MatSetValuesCOO(mat_, all.data(), INSERT_VALUES));
   }
   petsc_check(MatAssemblyBegin(mat_, MAT_FINAL_ASSEMBLY));
   petsc_check(MatAssemblyEnd(mat_, MAT_FINAL_ASSEMBLY));
+  petsc_check(MatViewFromOptions(mat_, nullptr, "-jacobian_view"));
 }
 
 void JacobianMat::multiply(Vec x, Vec y) {

@@ -48,11 +48,11 @@ class JacobianMat {
   Type type_;
   MatHandle mat_;
   CeedOperator op_ = nullptr;
+  PetscInt num_rows_ = 0, first_row_ = 0;  ///< of this rank
   std::vector<PetscInt> inactive_, global_index_;
   VecHandle local_in_, local_out_;
   CeedVectorHandle ceed_in_, ceed_out_, entries_;
   std::vector<CeedInt> rows_, columns_;  ///< of the pattern in force, to know when it changes
-  std::vector<PetscInt> pattern_inactive_;
 };
 
 /// Reads -mat_type.
