@@ -78,6 +78,22 @@ void with_field(const Swarm &swarm, const PointFieldSpec &spec, Body &&body) {
   }
 }
 
+/// Size of this rank's share of the data.
+std::uint64_t bytes_of(const Checkpoint &state) {
+  std::uint64_t bytes = 0;
+  for (const auto &[name, vec] : state.vectors) {
+    PetscInt n;
+    petsc_check(VecGetLocalSize(vec, &n));
+    bytes += static_cast<std::uint64_t>(n) * sizeof(double);
+  }
+  if (state.swarm) {
+    for (const PointFieldSpec &spec : point_fields()) {
+      bytes += static_cast<std::uint64_t>(state.swarm->local_size()) * spec.components * spec.bytes;
+    }
+  }
+  return bytes;
+}
+
 /// What a rank keeps of its own part, one row for each rank: number of entries, then their checksum as an integer.
 struct Part {
   std::int64_t entries = 0, sum = 0;
@@ -180,6 +196,7 @@ void write_checkpoint(MPI_Comm comm, const std::string &path, const CellGrid &gr
   MPI_Comm_size(comm, &size);
   const Fingerprint here = fingerprint(comm, grid);
   try {
+    throw_together(comm, reserve(comm, temporary, bytes_of(state)));
     H5File file(comm, temporary, H5File::Mode::kCreate);
     if (file.good()) {
       file.write_attribute("/", "format", std::string(kFormat));

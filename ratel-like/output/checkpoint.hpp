@@ -12,13 +12,13 @@ namespace hg {
 /// The state of a run between two steps. Whoever owns the step loop fills it to write, and hands it in with the objects
 /// made (vectors of the right size, an empty swarm) to read.
 struct Checkpoint {
-  PetscInt step = 0;                         ///< steps done
-  double time = 0.0;                         ///< s
-  double dt = 0.0;                           ///< next step's size, s
-  std::map<std::string, double> scalars;     ///< any other number, kept bitwise
-  std::map<std::string, std::string> texts;  ///< any string that must agree or be kept, such as options
-  std::map<std::string, Vec> vectors;        ///< not owned; each rank's own entries, bitwise
-  Swarm *swarm = nullptr;                    ///< not owned; every field, storage order of each rank; nullptr: no points
+  PetscInt step = 0;                           ///< steps done
+  double time = 0.0;                           ///< s
+  double dt = 0.0;                             ///< next step's size, s
+  std::map<std::string, double> scalars{};     ///< any other number, kept bitwise
+  std::map<std::string, std::string> texts{};  ///< any string that must agree or be kept, such as options
+  std::map<std::string, Vec> vectors{};        ///< not owned; each rank's own entries, bitwise
+  Swarm *swarm = nullptr;  ///< not owned; every field, storage order of each rank; nullptr: no points
 };
 
 /// Writes `path` (HDF5). Written to `path`.tmp, flushed to the disk, then renamed over `path`: whatever goes wrong, a

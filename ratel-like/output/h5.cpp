@@ -36,9 +36,11 @@ std::string folder_of(const std::string &path) {
   return folder.empty() ? std::string(".") : folder.string();
 }
 
+/// Independent transfers: each rank's rows are one contiguous piece of the file, so that nothing is gained by a
+/// collective one, and a write that fails on one rank (a full disk) cannot leave the others waiting inside MPI-IO.
 H5Id transfer_list() {
   H5Id list(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
-  H5Pset_dxpl_mpio(list, H5FD_MPIO_COLLECTIVE);
+  H5Pset_dxpl_mpio(list, H5FD_MPIO_INDEPENDENT);
   return list;
 }
 
@@ -86,15 +88,11 @@ void H5File::make_group(const std::string &path) {
 
 void H5File::transfer(const std::string &name, hid_t dataset, hid_t type, const H5Rows &rows, hsize_t width,
                       const void *out, void *in) {
+  if (rows.local == 0) return;
   const int rank = width ? 2 : 1;
   const hsize_t local[2] = {rows.local, width}, first[2] = {rows.first, 0};
   const H5Id in_file(H5Dget_space(dataset), H5Sclose), in_memory(H5Screate_simple(rank, local, nullptr), H5Sclose);
-  if (rows.local) {
-    H5Sselect_hyperslab(in_file, H5S_SELECT_SET, first, nullptr, local, nullptr);
-  } else {  // every rank takes part in a collective transfer, with nothing if it has nothing
-    H5Sselect_none(in_file);
-    H5Sselect_none(in_memory);
-  }
+  H5Sselect_hyperslab(in_file, H5S_SELECT_SET, first, nullptr, local, nullptr);
   const H5Id list = transfer_list();
   const herr_t code = out ? H5Dwrite(dataset, type, in_memory, in_file, list, out)
                           : H5Dread(dataset, type, in_memory, in_file, list, in);
@@ -107,8 +105,7 @@ void H5File::write(const std::string &name, hid_t type, const void *data, const 
   H5Id dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   check(dataset.ok(), "dataset " + name);
   if (!dataset.ok()) return;
-  static const char nothing = 0;  // HDF5 wants an address even where no row is written
-  transfer(name, dataset, type, rows, width, data ? data : &nothing, nullptr);
+  transfer(name, dataset, type, rows, width, data, nullptr);
   check(dataset.reset(), "closing " + name);
 }
 
@@ -124,8 +121,7 @@ void H5File::read(const std::string &name, hid_t type, void *data, const H5Rows 
     note("dataset " + name + " has the wrong shape");
     return;  // the same on every rank
   }
-  char nothing = 0;
-  transfer(name, dataset, type, rows, width, nullptr, data ? data : &nothing);
+  transfer(name, dataset, type, rows, width, nullptr, data);
 }
 
 long long H5File::rows(const std::string &name) const {
@@ -233,14 +229,25 @@ std::map<std::string, std::string> H5File::read_strings(const std::string &group
 }
 
 void H5File::finish(const char *verb) {
-  if (file_.ok()) {
-    if (mode_ == Mode::kCreate) check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "flushing");
-    check(file_.reset(), "closing");
+  const std::string space = mode_ == Mode::kCreate ? free_space(path_) : "";
+  if (file_.ok() && mode_ == Mode::kCreate) {
+    // A file that HDF5 fails to close stays in its tables and crashes it at the end of the program. So once a write has
+    // failed, make room for what HDF5 still has to write by giving up what was written, before it tries.
+    make_room_if_any_failed();
+    check(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "flushing");
+    make_room_if_any_failed();
   }
-  const std::string message = good() ? ""
-                                     : std::string("cannot ") + verb + " " + path_ + ": " + error_ +
-                                           (mode_ == Mode::kCreate ? free_space(path_) : "");
-  throw_together(comm_, message);
+  check(file_.reset(), "closing");
+  throw_together(comm_, good() ? "" : std::string("cannot ") + verb + " " + path_ + ": " + error_ + space);
+}
+
+void H5File::make_room_if_any_failed() {
+  int rank, bad = !good();
+  MPI_Comm_rank(comm_, &rank);
+  MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_INT, MPI_MAX, comm_);
+  if (!bad) return;
+  if (rank == 0 && truncate(path_.c_str(), 0) != 0) note("the file cannot be emptied");
+  MPI_Barrier(comm_);
 }
 
 void throw_together(MPI_Comm comm, const std::string &error) {
@@ -270,6 +277,25 @@ std::string free_space(const std::string &path) {
   char text[64];
   std::snprintf(text, sizeof text, " (%llu bytes are free on that disk)", bytes);
   return text;
+}
+
+std::string reserve(MPI_Comm comm, const std::string &path, std::uint64_t mine) {
+  constexpr std::uint64_t kMetadata = 1 << 16;  // what HDF5 writes beside the data, and some more
+  std::uint64_t bytes = 0;
+  int rank;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Reduce(&mine, &bytes, 1, MPI_UINT64_T, MPI_SUM, 0, comm);
+  if (rank != 0) return "";
+  bytes += kMetadata;
+  const int fd = open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC, 0666);
+  if (fd < 0) return "creating " + path + ": " + std::strerror(errno);
+  std::string error;
+  // Not every file system can reserve; there the writes themselves tell.
+  if (fallocate(fd, 0, 0, static_cast<off_t>(bytes)) != 0 && errno != EOPNOTSUPP && errno != ENOSYS) {
+    error = std::string(std::strerror(errno)) + ": " + std::to_string(bytes) + " bytes are needed" + free_space(path);
+  }
+  close(fd);
+  return error;
 }
 
 std::string sync_and_rename(MPI_Comm comm, const std::string &from, const std::string &to) {

@@ -90,6 +90,7 @@ class H5File {
 
  private:
   void check(bool ok, const std::string &what);
+  void make_room_if_any_failed();
   template <class T>
   void write_attribute_of(const std::string &group, const std::string &name, hid_t type, const T *value);
   void transfer(const std::string &name, hid_t dataset, hid_t type, const H5Rows &rows, hsize_t width, const void *out,
@@ -120,6 +121,11 @@ class NoFileSizeSignal {
 
 /// Rank 0 writes `text` to `path` by way of a temporary file and a rename; throws hg::Error on every rank. Collective.
 void write_text(MPI_Comm comm, const std::string &path, const std::string &text);
+
+/// Asks the file system for room for the bytes of all ranks, before any is written, by making the file on rank 0 with
+/// all its blocks: a disk that is too full is told at once and by its own message. Returns what failed, on rank 0. HDF5
+/// then makes the file anew; whoever fills the disk in between is met by the errors of the writes.
+std::string reserve(MPI_Comm comm, const std::string &path, std::uint64_t mine);
 
 /// Rank 0: flushes a finished file to the disk and renames it; empty, or what failed. Others: empty at once.
 std::string sync_and_rename(MPI_Comm comm, const std::string &from, const std::string &to);

@@ -101,6 +101,11 @@ void PointsWriter::write(PetscInt step, PetscReal time, const Swarm &swarm, std:
   const std::string path = numbered(prefix_, step, ".h5"), temporary = path + ".tmp";
   std::string text;
   try {
+    std::uint64_t bytes = (3 + 3 + 3 + 1 + 1 + 1) * sizeof(double) + sizeof(std::int32_t) + sizeof(std::int64_t);
+    for (const ExtraPointField &f : extra) bytes += (f.components == 6 ? 9 : f.components) * sizeof(double);
+    std::string full = reserve(comm_, temporary, n * bytes);
+    if (!full.empty()) full = "cannot write " + path + ": " + full;
+    throw_together(comm_, full);
     H5File file(comm_, temporary, H5File::Mode::kCreate);
     PointFile points(file, file_name(path), H5Rows::of(comm_, n));
     if (file.good()) {
