@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "operators/quadrature.hpp"
 #include "options/error.hpp"
 
 namespace hg {
@@ -24,21 +25,6 @@ Integration::AtPoints table_field(Ceed ceed, std::span<const double> table, Ceed
   return field;
 }
 
-/// The displacement restriction of some cells.
-CeedElemRestrictionHandle some_cells(const Mesh &mesh, std::span<const CeedInt> cells) {
-  const auto num_nodes = static_cast<CeedInt>((mesh.order + 1) * (mesh.order + 1) * (mesh.order + 1));
-  std::vector<CeedInt> offsets;
-  offsets.reserve(cells.size() * num_nodes);
-  for (const CeedInt cell : cells) {
-    const auto first = mesh.node_offsets().begin() + static_cast<std::ptrdiff_t>(cell) * num_nodes;
-    offsets.insert(offsets.end(), first, first + num_nodes);
-  }
-  CeedElemRestrictionHandle rstr;
-  ceed_check(CeedElemRestrictionCreate(mesh.ceed, static_cast<CeedInt>(cells.size()), num_nodes, 3, 1, mesh.local_size,
-                                       CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(), rstr.put()));
-  return rstr;
-}
-
 }  // namespace
 
 FemOperators::FemOperators(const Mesh &mesh, const RegionMap &map, std::span<const RegionMaterial> regions,
@@ -50,8 +36,6 @@ FemOperators::FemOperators(const Mesh &mesh, const RegionMap &map, std::span<con
   map.require_all_cells();
   const auto q_1d = static_cast<CeedInt>(mesh.order + 1) + q_extra;
   points_per_cell_ = q_1d * q_1d * q_1d;
-  const CeedBasisHandle basis_u = mesh.basis(mesh.order, 3, q_1d, CEED_GAUSS);
-  const CeedBasisHandle basis_x = mesh.basis(1, 3, q_1d, CEED_GAUSS);
 
   std::vector<Integration> parts;
   for (const Material *material : materials()) {
@@ -76,38 +60,10 @@ FemOperators::FemOperators(const Mesh &mesh, const RegionMap &map, std::span<con
     }
     if (cells.empty()) continue;
 
-    Integration part;
-    part.ceed = ceed_;
+    Integration part = quadrature_part(mesh, cells, q_1d);
     part.material = material;
-    const auto num_cells = static_cast<CeedInt>(cells.size());
     const CeedInt per_cell = points_per_cell_;
-    part.num_points = static_cast<CeedSize>(num_cells) * per_cell;
-    part.restriction = [ceed = ceed_, num_cells, per_cell](CeedInt num_comp) {
-      const CeedInt strides[3] = {num_comp, 1, num_comp * per_cell};
-      CeedElemRestrictionHandle rstr;
-      ceed_check(CeedElemRestrictionCreateStrided(ceed, num_cells, per_cell, num_comp,
-                                                  static_cast<CeedSize>(num_cells) * per_cell * num_comp, strides,
-                                                  rstr.put()));
-      return rstr;
-    };
     part.region = [region_of, per_cell](CeedSize point) { return (*region_of)[point / per_cell]; };
-
-    const bool all = num_cells == mesh.num_cells;
-    for (const char *name : {field_names::u, field_names::v}) {
-      part.on_mesh[name] = {all ? share(mesh.rstr_u.get()) : some_cells(mesh, cells), share(basis_u.get()), {}};
-    }
-    std::vector<double> corners;
-    corners.reserve(cells.size() * 24);
-    for (const CeedInt cell : cells) {
-      const auto x = mesh.corners(cell);
-      corners.insert(corners.end(), x.begin(), x.end());
-    }
-    Integration::OnMesh &nodes = part.on_mesh["nodes"];
-    const CeedInt strides[3] = {3, 1, 24};
-    ceed_check(CeedElemRestrictionCreateStrided(ceed_, num_cells, 8, 3, static_cast<CeedSize>(corners.size()), strides,
-                                                nodes.rstr.put()));
-    nodes.basis = share(basis_x.get());
-    nodes.values = make_vector(ceed_, corners);
     add_geometry(part);
 
     constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

@@ -56,6 +56,10 @@ class SolidOperators {
   /// ∫ |u − u_mms|² over this rank's integration points.
   double mms_error_squared(double amplitude, CeedVector u);
 
+  /// The same integral over this rank's cells by Gauss quadrature with order + 1 points in each direction, whatever the
+  /// method's own points are.
+  double mms_error_squared_on_mesh(double amplitude, CeedVector u);
+
   /// Sums for each region on this rank, in the order of the regions.
   std::vector<RegionIntegrals> integrals(CeedVector u);
 

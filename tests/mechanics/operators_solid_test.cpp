@@ -427,6 +427,8 @@ TEST(Mms, ErrorOfInterpolantAndResidualOfForce) {
     });
     const double error = std::sqrt(sum_ranks(body.ops->mms_error_squared(amplitude, body.vector(exact))));
     EXPECT_LT(error, 0.75 * previous);
+    const double on_mesh = std::sqrt(sum_ranks(body.ops->mms_error_squared_on_mesh(amplitude, body.vector(exact))));
+    EXPECT_NEAR(on_mesh, error, 1e-12 * error) << "FEM's own points are those of the mesh";
     previous = error;
     // residual(u_mms) balances the force up to the interpolation error
     const CeedVectorHandle f = body.empty();
