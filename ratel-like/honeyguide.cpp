@@ -49,8 +49,8 @@ void warn_of_unused_options() {
   hg::petsc_check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
 }
 
-void say_error_norm(MPI_Comm comm, double error) {
-  hg::petsc_check(PetscPrintf(comm, "L2 error against the manufactured solution: %.6e\n", error));
+void say_error_norm(MPI_Comm comm, const char *where, double error) {
+  hg::petsc_check(PetscPrintf(comm, "L2 error against the manufactured solution%s: %.6e\n", where, error));
 }
 
 void run(MPI_Comm comm) {
@@ -64,13 +64,16 @@ void run(MPI_Comm comm) {
     stage.reset();
     if (help) return;
     fem.run();
-    if (mms) say_error_norm(comm, fem.mms_error());
+    if (mms) say_error_norm(comm, "", fem.mms_error());
   } else {
     MpmRun mpm(setup);
     stage.reset();
     if (help) return;
     mpm.run();
-    if (mms) say_error_norm(comm, mpm.mms_error());
+    if (mms) {
+      say_error_norm(comm, "", mpm.mms_error());
+      say_error_norm(comm, ", at the points", mpm.mms_error_at_points());
+    }
   }
   warn_of_unused_options();
 }

@@ -53,8 +53,8 @@ Integration quadrature_part(const Mesh &mesh, std::span<const CeedInt> cells, Ce
   }
   Integration::OnMesh &nodes = part.on_mesh["nodes"];
   const CeedInt strides[3] = {3, 1, 24};
-  ceed_check(CeedElemRestrictionCreateStrided(mesh.ceed, num_cells, 8, 3, static_cast<CeedSize>(corners.size()), strides,
-                                              nodes.rstr.put()));
+  ceed_check(CeedElemRestrictionCreateStrided(mesh.ceed, num_cells, 8, 3, static_cast<CeedSize>(corners.size()),
+                                              strides, nodes.rstr.put()));
   nodes.basis = mesh.basis(1, 3, q_1d, CEED_GAUSS);
   nodes.values = make_vector(mesh.ceed, corners);
   return part;

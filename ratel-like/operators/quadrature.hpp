@@ -9,8 +9,8 @@
 
 namespace hg {
 
-/// The q_1d³ Gauss points of these local cells: spaces u and v (displacement) and nodes (coordinates), restrictions at the
-/// points; no data at the points yet, no material, no regions. Point q of the k-th cell has number k q_1d³ + q.
+/// The q_1d³ Gauss points of these local cells: spaces u and v (displacement) and nodes (coordinates), restrictions at
+/// the points; no data at the points yet, no material, no regions. Point q of the k-th cell has number k q_1d³ + q.
 Integration quadrature_part(const Mesh &mesh, std::span<const CeedInt> cells, CeedInt q_1d);
 
 }  // namespace hg
