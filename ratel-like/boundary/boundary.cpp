@@ -73,17 +73,18 @@ BoundaryFace read_slip(MPI_Comm comm, PetscInt number) {
   face.face = number;
   OptionGroup group(comm, "bc_slip_" + std::to_string(number) + "_", "Slipping face " + std::to_string(number));
   const std::vector<PetscInt> components = group.integers("components", "components that are given: 0, 1, 2", {});
-  if (components.empty()) fail("option %s is missing: expected a list of 0, 1, 2", group.full("components").c_str());
+  if (components.empty() && !group.helping())
+    fail("option %s is missing: expected a list of 0, 1, 2", group.full("components").c_str());
   for (PetscInt c : components) {
     if (c < 0 || c > 2) fail("option %s: %" PetscInt_FMT ", expected 0, 1 or 2", group.full("components").c_str(), c);
     face.components[c] = true;
   }
   const std::vector<double> flat = group.reals("translate", "displacement of each component at each time [m]", {}, -1);
-  if (flat.size() % components.size() != 0) {
+  if (!flat.empty() && (components.empty() || flat.size() % components.size() != 0)) {
     fail("option %s: %zu numbers, expected %zu for each time", group.full("translate").c_str(), flat.size(),
          components.size());
   }
-  face.translate.resize(flat.size() / components.size());
+  face.translate.resize(flat.empty() ? 0 : flat.size() / components.size());
   for (std::size_t i = 0; i < flat.size(); ++i) {
     face.translate[i / components.size()][components[i % components.size()]] = flat[i];
   }

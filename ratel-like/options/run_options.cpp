@@ -64,7 +64,7 @@ BodyForce read_forcing(MPI_Comm comm) {
   const std::string ramp = group.choice("forcing_body_interpolation",
                                         "between the times: linear (from 0 at t = 0), or step: the next time's vector",
                                         {"linear", "step"}, "linear");
-  if (kind == "none") return force;
+  if (kind == "none" || (flat.empty() && group.helping())) return force;
   if (flat.empty() || flat.size() % 3 != 0) {
     fail("option -forcing_body_vector: %zu numbers, expected 3 for each time", flat.size());
   }
