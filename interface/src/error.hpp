@@ -82,6 +82,8 @@ int guard(Ceed ceed, F &&f, const char *function = __builtin_FUNCTION()) noexcep
     return report(ceed, Error(CEED_ERROR_MAJOR, "Out of memory"), function);
   } catch (const std::exception &error) {
     return report(ceed, Error(CEED_ERROR_MAJOR, error.what()), function);
+  } catch (...) {
+    return report(ceed, Error(CEED_ERROR_MAJOR, "An exception of unknown type was thrown"), function);
   }
 }
 

@@ -49,6 +49,34 @@ std::size_t common_prefix(std::string_view request, std::string_view name) {
   }
 }
 
+/// Checks that a backend and its ancestors have filled all entries that are not optional.
+void require_complete(const CeedBackendOps &ops, const CeedBackend &backend) {
+  const std::pair<bool, const char *> entries[] = {
+      {ops.vector.create, "vector.create"},
+      {ops.vector.destroy, "vector.destroy"},
+      {ops.vector.set_array, "vector.set_array"},
+      {ops.vector.take_array, "vector.take_array"},
+      {ops.vector.sync_array, "vector.sync_array"},
+      {ops.vector.get_array, "vector.get_array"},
+      {ops.vector.get_array_read, "vector.get_array_read"},
+      {ops.vector.get_array_write, "vector.get_array_write"},
+      {ops.vector.has_valid_array, "vector.has_valid_array"},
+      {ops.vector.has_borrowed_array, "vector.has_borrowed_array"},
+      {ops.restriction.apply, "restriction.apply"},
+      {ops.restriction.apply_at_points_in_element, "restriction.apply_at_points_in_element"},
+      {ops.basis.apply, "basis.apply"},
+      {ops.basis.apply_at_points, "basis.apply_at_points"},
+      {ops.qfunction.apply, "qfunction.apply"},
+      {ops.op.apply_add, "op.apply_add"},
+      {ops.op.linear_assemble_qfunction, "op.linear_assemble_qfunction"},
+  };
+  for (const auto &[is_there, name] : entries) {
+    require(is_there, CEED_ERROR_MAJOR, [&] {
+      return text("Backend does not implement %s, which is not optional (%s)", name, backend.resource);
+    });
+  }
+}
+
 std::string resource_list() {
   std::string list;
   for (const auto &entry : registry()) list += std::string("\n  ") + entry.resource;
@@ -147,14 +175,22 @@ const CeedBackend &backend_named(std::string_view resource) {
 }
 
 void fill_tables(Ceed ceed, const CeedBackend &backend, const char *options) {
-  if (backend.parent != nullptr) {
-    require(std::strcmp(backend.parent, backend.resource) != 0, CEED_ERROR_MAJOR,
-            [&] { return text("Backend '%s' names itself as its parent", backend.resource); });
-    fill_tables(ceed, backend_named(backend.parent), "");
+  // From the backend to its oldest ancestor.
+  std::vector<const CeedBackend *> line{&backend};
+  while (line.back()->parent != nullptr) {
+    line.push_back(&backend_named(line.back()->parent));
+    require(std::find(line.begin(), line.end() - 1, line.back()) == line.end() - 1, CEED_ERROR_MAJOR, [&] {
+      std::string circle;
+      for (const CeedBackend *ancestor : line) circle += (circle.empty() ? "" : " -> ") + std::string(ancestor->resource);
+      return text("Backend '%s' is its own ancestor: %s", backend.resource, circle.c_str());
+    });
   }
-  ceed->ops.size = sizeof(CeedBackendOps);
-  ceed->ops.api_version = CEED_PLUGIN_API_VERSION;
-  check(backend.init(ceed, options, &ceed->ops));
+  for (auto ancestor = line.rbegin(); ancestor != line.rend(); ++ancestor) {
+    ceed->ops.size = sizeof(CeedBackendOps);
+    ceed->ops.api_version = CEED_PLUGIN_API_VERSION;
+    check((*ancestor)->init(ceed, *ancestor == &backend ? options : "", &ceed->ops));
+  }
+  require_complete(ceed->ops, backend);
 }
 
 }  // namespace hg

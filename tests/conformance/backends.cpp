@@ -47,6 +47,8 @@ Backend probe(const std::string &resource) {
   backend.is_usable = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   if (WIFSIGNALED(status)) backend.reason += " (ended by signal " + std::to_string(WTERMSIG(status)) + ")";
   if (!backend.is_usable && backend.reason.empty()) backend.reason = "no reason given";
+  // The list of all resources says nothing about this one.
+  backend.reason.resize(std::min(backend.reason.size(), backend.reason.find("\nAvailable backend resources:")));
   std::replace(backend.reason.begin(), backend.reason.end(), '\n', ' ');
   return backend;
 }
