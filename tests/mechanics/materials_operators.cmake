@@ -4,3 +4,13 @@ hg_mechanics_test(materials_qfunctions_test)
 target_sources(materials_qfunctions_test PRIVATE qfunctions_as_c.c)
 hg_mechanics_test(operators_solid_test RANKS 1 2 3)
 hg_mechanics_test(operators_projection_test RANKS 1 2 3)
+
+# Verification by the program
+if(TARGET honeyguide)
+  find_package(Python3 QUIET COMPONENTS Interpreter)
+  add_test(NAME mechanics.mms_linear
+           COMMAND ${Python3_EXECUTABLE} "${PROJECT_SOURCE_DIR}/docs/verification/mms_linear.py" --check
+                   --honeyguide $<TARGET_FILE:honeyguide> --mpiexec ${MPIEXEC_EXECUTABLE})
+  set_tests_properties(mechanics.mms_linear PROPERTIES LABELS "mechanics;long" TIMEOUT 1200 PROCESSORS 2 ENVIRONMENT
+    "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_btl_base_warn_component_unused=0;OMP_NUM_THREADS=1")
+endif()
