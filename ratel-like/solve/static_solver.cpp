@@ -64,12 +64,9 @@ StaticSolver::StaticSolver(const Mesh &mesh, SolidOperators &operators, const Bo
     petsc_check(KSPSetTolerances(ksp, 1e-6, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
   } else {
     petsc_check(KSPSetType(ksp, KSPPREONLY));
-    petsc_check(PCSetType(pc, PCLU));
-#if PetscDefined(HAVE_MUMPS)
-    int size;
-    MPI_Comm_size(mesh.comm, &size);
-    if (size > 1) petsc_check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-#endif
+    // The Jacobian is symmetric: MUMPS factors L D Lᵀ, also of an indefinite one, for half the price.
+    petsc_check(PCSetType(pc, PetscDefined(HAVE_MUMPS) ? PCCHOLESKY : PCLU));
+    if (PetscDefined(HAVE_MUMPS)) petsc_check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   }
   petsc_check(SNESSetFromOptions(snes_));
   SNESLineSearch search;
