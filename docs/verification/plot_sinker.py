@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""Draws force against displacement of the sinker, runs beside published curves, and prints their differences.
+
+Each run is METHOD:ELEMENTS:FILE, for example mpm:5:sinker-mpm.csv, where FILE is what honeyguide wrote with
+-ts_monitor_quantities. The published points were read off printed figures, with an error of about 0.002 m.
+"""
+
+import argparse
+import csv
+import pathlib
+import sys
+
+LOAD_STEPS = 20
+CURVES = {"sinker_center": ("centre of the sinker", "displacement_probe0"),
+          "full_sinker": ("mean of the sinker", "mean_displacement_sinker")}
+COLOURS = {"fem": "#1f6f8b", "mpm": "#d98324"}
+LINES = {5: "-", 10: "--", 15: ":"}
+MARKERS = {5: "o", 10: "s", 15: "^"}
+
+
+class Run:
+    """One run: at each time the force on the sinker, and the downward displacements."""
+
+    def __init__(self, argument):
+        parts = argument.split(":", 2)
+        if len(parts) != 3 or parts[0] not in COLOURS or not parts[1].isdigit():
+            sys.exit(f"'{argument}': expected fem:ELEMENTS:FILE or mpm:ELEMENTS:FILE")
+        self.method, self.elements, self.file = parts[0], int(parts[1]), parts[2]
+        with open(self.file, newline="") as lines:
+            rows = list(csv.DictReader(lines))
+        if not rows:
+            sys.exit(f"{self.file}: no steps")
+        self.load_step, self.force = [], []
+        self.down = {curve: [] for curve in CURVES}
+        for row in rows:
+            force = self.vector(row, "body_force_sinker")
+            size = sum(f * f for f in force) ** 0.5
+            if size == 0:
+                continue  # the unloaded start: no direction is downward yet
+            self.load_step.append(float(row["time"]) * LOAD_STEPS)
+            self.force.append(size)
+            for curve, (_, column) in CURVES.items():
+                displacement = self.vector(row, column)
+                self.down[curve].append(sum(u * f for u, f in zip(displacement, force)) / size)
+        if not self.load_step:
+            sys.exit(f"{self.file}: no step has a load on the sinker")
+
+    def vector(self, row, stem):
+        try:
+            return [float(row[f"{stem}_{axis}"]) for axis in "xyz"]
+        except KeyError as missing:
+            sys.exit(f"{self.file}: no column {missing}: run with one -probe and a region named sinker")
+
+    def at(self, step, values):
+        """A value at a load step, or None where the run has none."""
+        for known, value in zip(self.load_step, values):
+            if abs(known - step) < 1e-6:
+                return value
+        return None
+
+    def label(self):
+        return f"{self.method.upper()} {self.elements}³"
+
+
+def published_points(file):
+    points = {}
+    with open(file, newline="") as lines:
+        for row in csv.DictReader(lines):
+            key = row["curve"], row["method"], int(row["elements_per_side"])
+            points.setdefault(key, []).append((int(row["step"]), float(row["downward_displacement_m"])))
+    return points
+
+
+def print_table(runs, published):
+    """Differences in percent of the published value, at every fourth step and in the worst one."""
+    shown = range(4, LOAD_STEPS + 1, 4)
+    print("| run | curve | " + " | ".join(f"step {step}" for step in shown) + " | steps compared | largest difference |")
+    print("|---" * (len(shown) + 4) + "|")
+    for run in runs:
+        for curve, (name, _) in CURVES.items():
+            points = dict(published.get((curve, run.method, run.elements), []))
+            cells, worst, compared = [], (0, 0.0), 0
+            for step in range(1, LOAD_STEPS + 1):
+                ours, theirs = run.at(step, run.down[curve]), points.get(step)
+                both = ours is not None and theirs is not None
+                if both:
+                    difference = 100 * (ours / theirs - 1)
+                    compared += 1
+                    worst = max(worst, (step, difference), key=lambda entry: abs(entry[1]))
+                if step in shown:
+                    cells.append("–" if ours is None else f"{ours:.4f} m" + (f" ({difference:+.1f} %)" if both else ""))
+            last = f"{worst[1]:+.1f} % at step {worst[0]}" if compared else "–"
+            print(f"| {run.label()} | {name} | " + " | ".join(cells) + f" | {compared} | {last} |")
+
+
+def draw_points(axis, file):
+    """The points of a slice through the middle of the sinker, where they are at the end."""
+    import h5py
+
+    with h5py.File(file, "r") as data:
+        x, displacement, region = data["x"][:], data["displacement"][:], data["region"][:].ravel()
+    start = x - displacement
+    slice_of_points = abs(start[:, 1] - 0.5) < 0.051
+    down = -displacement[slice_of_points, 2]
+    place = x[slice_of_points]
+    inside = abs(start[slice_of_points] - 0.5).max(axis=1) < 0.1 + 1e-9
+    drawn = axis.scatter(place[~inside, 0], place[~inside, 2], c=down[~inside], s=7, cmap="YlGnBu", linewidths=0)
+    axis.scatter(place[inside, 0], place[inside, 2], c="#7a3b12", s=9, linewidths=0)
+    axis.set(title="MPM: points of the middle slice", xlabel="x [m]", ylabel="z [m]", xlim=(0, 1), ylim=(0, 1), aspect="equal")
+    axis.figure.colorbar(drawn, ax=axis, label="downward displacement [m]", shrink=0.8)
+    del region
+
+
+def draw(runs, published, points, output):
+    try:
+        import matplotlib
+    except ImportError:
+        sys.exit(f"{sys.executable} has no matplotlib; on Debian: apt-get install python3-matplotlib, and use /usr/bin/python3")
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    pyplot.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
+                            "grid.alpha": 0.25, "figure.constrained_layout.use": True})
+    panels = len(CURVES) + bool(points)
+    figure, axes = pyplot.subplots(1, panels, figsize=(3.9 * panels, 3.5))
+    if points:
+        draw_points(axes[0], points)
+    for axis, (curve, (name, _)) in zip(axes[-len(CURVES):], CURVES.items()):
+        for run in runs:
+            colour = COLOURS[run.method]
+            giga = [force / 1e9 for force in run.force]
+            axis.plot([0, *run.down[curve]], [0, *giga], LINES.get(run.elements, "-."), color=colour, label=run.label())
+            theirs = published.get((curve, run.method, run.elements), [])
+            if theirs:
+                # The load grows in equal steps, so the force of a step follows from the first one.
+                unit = giga[0] / run.load_step[0]
+                axis.plot([down for _, down in theirs], [step * unit for step, _ in theirs], linestyle="none",
+                          marker=MARKERS.get(run.elements, "D"), markersize=4, markerfacecolor="none", color=colour,
+                          label=f"published {run.label()}")
+        axis.set(title=f"Force on the sinker, {name}", xlabel="downward displacement [m]", ylabel="force [GN]")
+        axis.legend(frameon=False, fontsize=8)
+    figure.savefig(output, dpi=130)
+    print(f"wrote {output}", file=sys.stderr)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("runs", nargs="+", metavar="METHOD:ELEMENTS:FILE")
+    parser.add_argument("--published", type=pathlib.Path, default=pathlib.Path(__file__).with_name("sinker_published.csv"))
+    parser.add_argument("--points", help="HDF5 file of the points of a run, drawn beside the curves")
+    parser.add_argument("--output", default="sinker.png", help="picture to write (default: sinker.png)")
+    parser.add_argument("--no-plot", action="store_true", help="print the table only")
+    args = parser.parse_args()
+    runs = [Run(argument) for argument in args.runs]
+    published = published_points(args.published)
+    print_table(runs, published)
+    if not args.no_plot:
+        draw(runs, published, args.points, args.output)
+
+
+if __name__ == "__main__":
+    main()
