@@ -19,7 +19,6 @@ END
 }
 
 labels="" jobs=$(nproc) preset=release build_dir="" sanitizers=no install=yes
-value_of() { [ $# -ge 2 ] || { echo "test.sh: $1 needs a value" >&2; exit 2; }; printf '%s' "$2"; }
 while [ $# -gt 0 ]; do
   case "$1" in
     -L|--labels) labels=$(value_of "$@"); shift ;;

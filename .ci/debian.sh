@@ -3,8 +3,8 @@
 
 build_packages="build-essential cmake ninja-build pkg-config petsc-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev
   libmetis-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenblas0-serial"
-test_packages="libgtest-dev git python3 python3-h5py"
-plot_packages="python3 python3-matplotlib"
+test_packages="libgtest-dev git python3"
+plot_packages="python3 python3-matplotlib python3-h5py"
 docs_packages="doxygen python3-sphinx python3-myst-parser furo python3-breathe"
 
 # install_packages NAME...: installs those that are not there yet, and says which.
@@ -41,3 +41,19 @@ allow_mpi_anywhere() {
 }
 
 step() { printf '\n== %s\n' "$*"; }
+
+# value_of OPTION VALUE...: the value of an option, or an error where there is none.
+value_of() { [ $# -ge 2 ] || { echo "$0: $1 needs a value" >&2; exit 2; }; printf '%s' "$2"; }
+
+# python_with MODULE...: a python3 that has them. Debian's comes first: another may stand before it in PATH.
+python_with() {
+  local python
+  for python in /usr/bin/python3 python3; do
+    if "$python" -c "import $(IFS=,; echo "$*")" 2>/dev/null; then
+      echo "$python"
+      return 0
+    fi
+  done
+  echo "No python3 with $*: on Debian, install$(printf ' python3-%s' "$@")" >&2
+  return 1
+}

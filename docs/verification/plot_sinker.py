@@ -94,21 +94,21 @@ def print_table(runs, published):
 
 
 def draw_points(axis, file):
-    """The points of a slice through the middle of the sinker, where they are at the end."""
+    """Where the points of the middle layer are; those of the first region, the sinker, in one colour."""
     import h5py
 
     with h5py.File(file, "r") as data:
-        x, displacement, region = data["x"][:], data["displacement"][:], data["region"][:].ravel()
-    start = x - displacement
-    slice_of_points = abs(start[:, 1] - 0.5) < 0.051
-    down = -displacement[slice_of_points, 2]
-    place = x[slice_of_points]
-    inside = abs(start[slice_of_points] - 0.5).max(axis=1) < 0.1 + 1e-9
-    drawn = axis.scatter(place[~inside, 0], place[~inside, 2], c=down[~inside], s=7, cmap="YlGnBu", linewidths=0)
-    axis.scatter(place[inside, 0], place[inside, 2], c="#7a3b12", s=9, linewidths=0)
-    axis.set(title="MPM: points of the middle slice", xlabel="x [m]", ylabel="z [m]", xlim=(0, 1), ylim=(0, 1), aspect="equal")
-    axis.figure.colorbar(drawn, ax=axis, label="downward displacement [m]", shrink=0.8)
-    del region
+        x, displacement, region = data["x"][:], data["displacement"][:], data["region"][:]
+    layer = abs((x - displacement)[:, 1] - 0.5) < 0.51 / len(x) ** (1 / 3)
+    foam, sinker = layer & (region != 0), layer & (region == 0)
+    drawn = axis.scatter(x[foam, 0], x[foam, 2], c=-displacement[foam, 2], s=16, cmap="YlGnBu",
+                         vmin=-0.15, vmax=0.4, linewidths=0)
+    axis.scatter(x[sinker, 0], x[sinker, 2], c="#7a3b12", s=18, linewidths=0, label="sinker")
+    axis.set(title="MPM: points of the middle layer", xlabel="x [m]", ylabel="z [m]", xlim=(0, 1), ylim=(0, 1),
+             aspect="equal")
+    axis.grid(False)
+    axis.legend(loc="upper right", fontsize=8)
+    axis.figure.colorbar(drawn, ax=axis, label="downward displacement of the foam [m]", shrink=0.85)
 
 
 def draw(runs, published, points, output):
@@ -137,7 +137,7 @@ def draw(runs, published, points, output):
                 axis.plot([down for _, down in theirs], [step * unit for step, _ in theirs], linestyle="none",
                           marker=MARKERS.get(run.elements, "D"), markersize=4, markerfacecolor="none", color=colour,
                           label=f"published {run.label()}")
-        axis.set(title=f"Force on the sinker, {name}", xlabel="downward displacement [m]", ylabel="force [GN]")
+        axis.set(title="Force on the sinker", xlabel=f"downward displacement, {name} [m]", ylabel="force [GN]")
         axis.legend(frameon=False, fontsize=8)
     figure.savefig(output, dpi=130)
     print(f"wrote {output}", file=sys.stderr)
