@@ -19,6 +19,7 @@ jobs=$(nproc) build_dir=build/release results=demo-results install=yes
 while [ $# -gt 0 ]; do
   case "$1" in
     -j) jobs=$(value_of "$@"); shift ;;
+    -j?*) jobs=${1#-j} ;;
     --build-dir) build_dir=$(value_of "$@"); shift ;;
     --results) results=$(value_of "$@"); shift ;;
     --no-install) install=no ;;
