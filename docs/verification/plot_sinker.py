@@ -10,6 +10,7 @@ import csv
 import pathlib
 import sys
 
+HERE = pathlib.Path(__file__).resolve().parent
 LOAD_STEPS = 20
 CURVES = {"sinker_center": ("centre of the sinker", "displacement_probe0"),
           "full_sinker": ("mean of the sinker", "mean_displacement_sinker")}
@@ -146,7 +147,7 @@ def draw(runs, published, points, output):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", nargs="+", metavar="METHOD:ELEMENTS:FILE")
-    parser.add_argument("--published", type=pathlib.Path, default=pathlib.Path(__file__).with_name("sinker_published.csv"))
+    parser.add_argument("--published", type=pathlib.Path, default=HERE / "data" / "sinker_published.csv")
     parser.add_argument("--points", help="HDF5 file of the points of a run, drawn beside the curves")
     parser.add_argument("--output", default="sinker.png", help="picture to write (default: sinker.png)")
     parser.add_argument("--no-plot", action="store_true", help="print the table only")
