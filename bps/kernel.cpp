@@ -46,8 +46,8 @@ struct PointChoice {
 
 std::vector<PointChoice> timed_points(const KernelOptions &options) {
   std::vector<PointChoice> choices;
-  for (const Placement placement : options.placements) {
-    if (placement == Placement::quadrature) {
+  for (const auto &placement : options.placements) {
+    if (!placement || *placement == Placement::quadrature) {
       choices.push_back({placement, 0});
     } else {
       for (const CeedInt per_cell : options.points) choices.push_back({placement, per_cell});
@@ -57,16 +57,17 @@ std::vector<PointChoice> timed_points(const KernelOptions &options) {
   return choices;
 }
 
-/// What --check tests: what was asked for; without points, quadrature and every placement with enough points for p.
+/// What --check tests: what was asked for, by default quadrature and every placement; with enough points for p where
+/// their number was not asked for.
 std::vector<PointChoice> checked_points(const KernelOptions &options, CeedInt degree) {
   if (!options.points.empty()) return timed_points(options);
   const CeedInt per_cell = (degree + 2) * (degree + 2) * (degree + 2);
   const CeedInt random = 4 * (degree + 1) * (degree + 1) * (degree + 1);
-  std::vector<PointChoice> choices;
   if (options.placements.empty()) {
-    choices = {{}, {Placement::gauss, per_cell}, {Placement::uniform, per_cell}, {Placement::random, random}};
+    return {{}, {Placement::gauss, per_cell}, {Placement::uniform, per_cell}, {Placement::random, random}};
   }
-  for (const Placement placement : options.placements)
+  std::vector<PointChoice> choices;
+  for (const auto &placement : options.placements)
     choices.push_back({placement, placement == Placement::random ? random : per_cell});
   return choices;
 }

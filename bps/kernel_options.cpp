@@ -30,15 +30,18 @@ std::vector<Problem> parse_problems(const std::vector<std::string> &texts) {
   return problems;
 }
 
-std::vector<Placement> parse_placements(const std::string &text) {
-  std::vector<Placement> placements;
+std::vector<std::optional<Placement>> parse_placements(const std::string &text) {
+  std::vector<std::optional<Placement>> placements;
   for (const auto &part : split(text)) {
     if (part == "all") {
       placements.insert(placements.end(), {Placement::uniform, Placement::gauss, Placement::random});
+    } else if (part == "none") {
+      placements.push_back({});
     } else if (const auto placement = find_placement(part)) {
       placements.push_back(*placement);
     } else {
-      throw Error(fmt::format("--placement {}: unknown; known are uniform, gauss, random, quadrature and all", part));
+      throw Error(
+          fmt::format("--placement {}: unknown; known are none, uniform, gauss, random, quadrature and all", part));
     }
   }
   return placements;
@@ -74,8 +77,9 @@ ParsedOptions parse_options(int argc, const char *const *argv) {
   app.add_option("--points", points,
                  "material points in each cell, such as 27 or 8,27,64 (default: quadrature points)");
   app.add_option("--placement", placement,
-                 "where material points lie: uniform, gauss, random (in each cell, fixed seed), all of these; or\n"
-                 "quadrature, the quadrature points themselves, for which --points is not needed (default: uniform)");
+                 "where material points lie: uniform, gauss, random (in each cell, fixed seed), all of these;\n"
+                 "quadrature: the quadrature points themselves, --points is not needed;\n"
+                 "none: no material points; several by commas (default: none, with --points uniform)");
   app.add_option("--json", json, "write one record for each run to this file");
   app.add_option("--reps", options.repetitions, "timed applications of each operator")
       ->capture_default_str()
@@ -103,12 +107,13 @@ ParsedOptions parse_options(int argc, const char *const *argv) {
   options.dofs = parse_reals("--dofs", dofs, 8, 2e9);
   if (!points.empty()) options.points = parse_integers("--points", points, 1, 1000000);
   if (!placement.empty()) options.placements = parse_placements(placement);
-  if (!options.points.empty() && options.placements.empty()) options.placements = {Placement::uniform};
-  const auto needs_count = [](Placement p) { return p != Placement::quadrature; };
+  if (!options.points.empty() && options.placements.empty()) options.placements.push_back(Placement::uniform);
+  const auto needs_count = [](std::optional<Placement> p) { return p && p != Placement::quadrature; };
   if (!options.check && options.points.empty() && std::ranges::any_of(options.placements, needs_count))
     throw Error(fmt::format("--placement {}: needs the number of points in each cell, --points N", placement));
-  for (const Placement p : options.placements)
-    for (const CeedInt per_cell : options.points) require_point_count(p, per_cell);
+  for (const auto &placement : options.placements)
+    for (const CeedInt per_cell : options.points)
+      if (placement) require_point_count(*placement, per_cell);
   if (!json.empty()) options.json = json;
   options.resources = resolve_resources(resources);
   return {options, 0};

@@ -18,8 +18,9 @@ struct KernelOptions {
   std::vector<Problem> problems;
   std::vector<CeedInt> degrees;
   std::vector<double> dofs;
-  std::vector<CeedInt> points;        ///< points a cell; empty: at quadrature points
-  std::vector<Placement> placements;  ///< empty: not asked for
+  std::vector<CeedInt> points;  ///< points a cell
+  /// Empty: not asked for. An empty entry is the operator at quadrature points.
+  std::vector<std::optional<Placement>> placements;
   std::optional<std::filesystem::path> json;
   int repetitions = 10;
   CgOptions cg;

@@ -24,7 +24,7 @@ std::string format_table(std::vector<Record> records) {
   for (const Record &r : records) width = std::max(width, r.ceed.size());
 
   std::string table =
-      fmt::format("{:4} {:>2} {:>3} {:>9} {:>9} {:10}  {:<{}}  {:>10} {:>8} {:>8} {:>6} {:>7} {:>5} {:>9} {:>8}\n", "",
+      fmt::format("{:4} {:>2} {:>3} {:>9} {:>9} {:13}  {:<{}}  {:>10} {:>8} {:>8} {:>6} {:>7} {:>5} {:>9} {:>8}\n", "",
                   "p", "q1d", "DoFs", "points", "placement", "ceed", width, "s/apply", "MDoF/s", "Mpoint/s", "GB/s",
                   "GFLOP/s", "CG it", "CG MDoF/s", "error");
   for (auto group = records.begin(); group != records.end();) {
@@ -35,7 +35,7 @@ std::string format_table(std::vector<Record> records) {
       const std::string placement =
           r->placement ? fmt::format("{} {}", *r->placement, *r->points_per_cell) : std::string("-");
       table += fmt::format(
-          "{:4} {:>2} {:>3} {:>9} {:>9} {:10}  {:<{}}  {:>10.3e} {:>7.2f}{} {:>8.2f} {:>6.2f} {:>7.2f} {:>5} {:>9.2f} "
+          "{:4} {:>2} {:>3} {:>9} {:>9} {:13}  {:<{}}  {:>10.3e} {:>7.2f}{} {:>8.2f} {:>6.2f} {:>7.2f} {:>5} {:>9.2f} "
           "{:>8}\n",
           r->problem, r->degree, r->q_1d, r->dofs, r->points, placement, r->ceed, width, r->seconds_best,
           r->mdofs_per_s(), r == fastest && end - group > 1 ? '*' : ' ', r->mpoints_per_s(), r->gb_per_s(),

@@ -1,0 +1,84 @@
+#include "program.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace hg::test {
+
+std::string quoted(const std::filesystem::path &path) {
+  return std::string("'").append(path.string()).append("'");
+}
+
+Finished run(const std::string &command) {
+  const TemporaryFolder folder;
+  const auto out = folder / "out", err = folder / "err";
+  const int status = std::system(("( " + command + " ) > " + quoted(out) + " 2> " + quoted(err)).c_str());
+  Finished finished;
+  finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  finished.out = read_text(out);
+  finished.err = read_text(err);
+  return finished;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "bps_test_XXXXXX").string();
+  if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a temporary folder");
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string read_text(const std::filesystem::path &file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+nlohmann::json read_json(const std::filesystem::path &file) {
+  return nlohmann::json::parse(read_text(file));
+}
+
+void expect_record(const nlohmann::json &r) {
+  SCOPED_TRACE(r.dump());
+  const std::set<std::string> strings{"program", "problem", "ceed", "cpu", "library_version"};
+  const std::set<std::string> integers{"degree", "q_1d",        "elements",      "dofs",
+                                       "points", "repetitions", "cg_iterations", "ranks"};
+  const std::set<std::string> numbers{"mdofs_per_s",  "mpoints_per_s", "gb_per_s",      "flops",
+                                      "gflops_per_s", "cg_seconds",    "cg_mdofs_per_s"};
+  const std::set<std::string> nullable{"points_per_cell", "placement", "error", "error_h1"};
+  std::set<std::string> known{"seconds_per_apply", "cg_converged"};
+  for (const auto &names : {strings, integers, numbers, nullable}) known.insert(names.begin(), names.end());
+  for (const auto &name : known) ASSERT_TRUE(r.contains(name)) << name;
+  for (const auto &item : r.items()) EXPECT_TRUE(known.contains(item.key())) << item.key() << " is not in the schema";
+  for (const auto &name : strings) EXPECT_TRUE(r[name].is_string() && !r[name].get<std::string>().empty()) << name;
+  for (const auto &name : integers) EXPECT_TRUE(r[name].is_number_integer() && r[name].get<long long>() > 0) << name;
+  for (const auto &name : numbers) EXPECT_TRUE(r[name].is_number() && r[name].get<double>() > 0) << name;
+  EXPECT_EQ(r["points_per_cell"].is_null(), r["placement"].is_null());
+  EXPECT_EQ(r["error"].is_null(), !r["cg_converged"].get<bool>());
+  EXPECT_EQ(r["error_h1"].is_null(), !r["cg_converged"].get<bool>());
+
+  const double best = r["seconds_per_apply"]["best"], median = r["seconds_per_apply"]["median"], dofs = r["dofs"];
+  EXPECT_GT(best, 0);
+  EXPECT_GE(median, best);
+  EXPECT_NEAR(r["mdofs_per_s"].get<double>(), dofs / best / 1e6, 1e-9 * dofs / best / 1e6);
+  const double points = r["points"];
+  EXPECT_NEAR(r["mpoints_per_s"].get<double>(), points / best / 1e6, 1e-9 * points / best / 1e6);
+  const double cg = dofs * r["cg_iterations"].get<double>() / r["cg_seconds"].get<double>() / 1e6;
+  EXPECT_NEAR(r["cg_mdofs_per_s"].get<double>(), cg, 1e-9 * cg);
+  const long long q = r["q_1d"], elements = r["elements"];
+  if (r["placement"].is_null()) {
+    EXPECT_EQ(r["points"].get<long long>(), q * q * q * elements);
+  } else {
+    EXPECT_EQ(r["points"].get<long long>(), r["points_per_cell"].get<long long>() * elements);
+  }
+}
+
+}  // namespace hg::test
