@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,11 @@ namespace {
 
 /// Runs bps on `ranks` ranks; the reference backend unless the arguments say otherwise.
 Finished bps(int ranks, const std::string &arguments) {
+  // More ranks than cores, and root in a container, are both fine for a test; one thread a rank.
+  for (const char *name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
+                           "OMPI_MCA_rmaps_base_oversubscribe", "OMP_NUM_THREADS"})
+    setenv(name, "1", 0);
+  setenv("OMPI_MCA_btl_base_warn_component_unused", "0", 0);
   const std::string program = ranks == 1 ? std::string("'" BPS_PROGRAM "'")
                                          : "'" BPS_MPIEXEC "' -n " + std::to_string(ranks) + " '" BPS_PROGRAM "'";
   return run(program + " " + arguments);
@@ -30,6 +36,7 @@ nlohmann::json records_of(int ranks, const std::string &arguments) {
 
 struct MeshCase {
   const char *name, *arguments;
+  friend void PrintTo(const MeshCase &which, std::ostream *stream) { *stream << which.arguments; }
 };
 
 class Ranks : public testing::TestWithParam<MeshCase> {};
@@ -116,6 +123,7 @@ struct BadOptions {
   const char *arguments;
   int ranks;
   const char *fragments[2];
+  friend void PrintTo(const BadOptions &which, std::ostream *stream) { *stream << which.arguments; }
 };
 
 class BadInput : public testing::TestWithParam<BadOptions> {};
@@ -141,7 +149,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadOptions{"-swarm uniform -points_per_cell 9", 1, {"9 points a cell", "cube of a whole number"}},
                     BadOptions{"-ceed /no/such/backend", 2, {"/no/such/backend", "/cpu/self/ref/serial"}},
                     BadOptions{"-cells 1,1,1", 2, {"a rank has no cell", "fewer ranks"}},
-                    BadOptions{"-json /no/such/folder/x.json", 2, {"/no/such/folder/x.json", "cannot write"}}));
+                    BadOptions{"-json /no/such/folder/x.json", 2, {"/no/such/folder/x.json", "cannot write"}}),
+    [](const auto &info) { return name_from(info.param.arguments); });
 
 }  // namespace
 }  // namespace hg::test

@@ -119,6 +119,7 @@ TEST(Kernel, SolvesTheSameProblemTwiceAlike) {
 
 struct BadOptions {
   const char *arguments, *fragments[2];
+  friend void PrintTo(const BadOptions &which, std::ostream *stream) { *stream << which.arguments; }
 };
 
 class BadInput : public testing::TestWithParam<BadOptions> {};
@@ -142,7 +143,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadOptions{"--placement spiral", {"--placement spiral", "known are"}},
                     BadOptions{"--reps 0", {"--reps", "1000000"}}, BadOptions{"--sizes 3", {"--sizes", "--help"}},
                     BadOptions{"--ceed /no/such/backend --quiet", {"/no/such/backend", "/cpu/self/ref/serial"}},
-                    BadOptions{"--json /no/such/folder/file.json", {"/no/such/folder/file.json", "cannot write"}}));
+                    BadOptions{"--json /no/such/folder/file.json", {"/no/such/folder/file.json", "cannot write"}}),
+    [](const auto &info) { return name_from(info.param.arguments); });
 
 TEST(Kernel, HelpNamesEveryOption) {
   const Finished finished = kernel("--help");

@@ -3,12 +3,20 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
 
 namespace hg::test {
+
+std::string name_from(const std::string &arguments) {
+  std::string name;
+  for (const char c : arguments)
+    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
+  return name;
+}
 
 std::string quoted(const std::filesystem::path &path) {
   return std::string("'").append(path.string()).append("'");

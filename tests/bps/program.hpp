@@ -14,6 +14,9 @@ struct Finished {
   std::string out, err;
 };
 
+/// A name for a test from the arguments it tries: their letters and digits.
+std::string name_from(const std::string &arguments);
+
 /// A path as one word of a shell command.
 std::string quoted(const std::filesystem::path &path);
 
