@@ -34,10 +34,13 @@ bool finite_everywhere(Vec f) {
 
 StaticSolver::StaticSolver(const Mesh &mesh, SolidOperators &operators, const BoundaryConditions &boundary,
                            const RunOptions &options)
-    : mesh_(mesh), operators_(operators), boundary_(boundary), options_(options) {
+    : mesh_(mesh), operators_(operators), boundary_(boundary), options_(options), tractions_(mesh) {
   OptionGroup group(mesh.comm, "", "Solver");
   final_time_ = group.real("ts_max_time", "time at which the run ends [s]", 1., Range::positive());
   keep_tolerance_ = group.given("snes_atol");
+  if (!tractions_.empty() && options.method == Method::mpm) {
+    fail("option -bc_traction: faces of the background mesh carry no load in -method mpm, expected -method fem");
+  }
   jacobian_ = std::make_unique<JacobianMat>(mesh, read_mat_type(mesh.comm));
 
   petsc_check(DMCreateGlobalVector(mesh.dm, residual_.put()));
@@ -100,17 +103,22 @@ void StaticSolver::operators_changed(const std::vector<char> &active_cells) {
 }
 
 void StaticSolver::external_force(const Step &step) {
-  if (options_.forcing.kind == BodyForce::Kind::none) {
+  const BodyForce &force = options_.forcing;
+  if (force.kind == BodyForce::Kind::none) {
     petsc_check(VecZeroEntries(local_load_));
-    return;
-  }
-  Lend load(local_load_, ceed_r_, Access::write);
-  if (options_.forcing.kind == BodyForce::Kind::mms) {
-    operators_.mms_force(mms_amplitude * mms_factor(step.t, final_time_), ceed_r_);
   } else {
-    const BodyForce &force = options_.forcing;
-    operators_.body_force(vector_at(force.times, force.vectors, force.ramp, step.t), ceed_r_);
+    Lend load(local_load_, ceed_r_, Access::write);
+    if (force.kind == BodyForce::Kind::mms) {
+      operators_.mms_force(mms_factor(step.t, final_time_), ceed_r_);
+    } else {
+      operators_.body_force(vector_at(force.times, force.vectors, force.ramp, step.t), ceed_r_);
+    }
   }
+  if (tractions_.empty()) return;
+  PetscScalar *array;
+  petsc_check(VecGetArray(local_load_, &array));
+  tractions_.add(step.t, {array, static_cast<std::size_t>(mesh_.local_size)});
+  petsc_check(VecRestoreArray(local_load_, &array));
 }
 
 void StaticSolver::to_local(Vec u, Vec local) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "boundary/boundary.hpp"
+#include "boundary/traction.hpp"
 #include "mesh/mesh.hpp"
 #include "operators/solid_operators.hpp"
 #include "options/options.hpp"
@@ -80,6 +81,7 @@ class StaticSolver {
   SolidOperators &operators_;
   const BoundaryConditions &boundary_;
   const RunOptions &options_;
+  Tractions tractions_;
   double final_time_ = 1;
   double scale_ = 0;
   bool keep_tolerance_ = false;  ///< the user gave -snes_atol

@@ -118,6 +118,7 @@ TEST(Input, HelpExplainsEveryOption) {
                                "-bc_clamp_1_translate <",
                                "-bc_clamp_1_rotate <",
                                "-bc_slip_2_translate <",
+                               "-bc_traction <",
                                "-forcing <",
                                "-forcing_body_vector <",
                                "-dm_plex_box_faces <",

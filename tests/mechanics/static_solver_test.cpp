@@ -110,6 +110,40 @@ TEST(StaticSolver, NeoHookeanUniaxialStretchMeetsTheClosedForm) {
   }
 }
 
+TEST(StaticSolver, TractionPullsAsAStretchDoes) {
+  ScopedOptions options{{"-bc_slip", "6,3,1"},
+                        {"-bc_slip_6_components", "0"},
+                        {"-bc_slip_3_components", "1"},
+                        {"-bc_slip_1_components", "2"},
+                        {"-bc_traction", "5"},
+                        {"-bc_traction_5", "0.28,0,0"},
+                        {"-mat_type", "aij"}};
+  Problem problem("elasticity-linear", "2,3,2", 2, bend);
+  const SolveResult result = problem.solve(0.5);
+  ASSERT_TRUE(result.converged) << result.reason;
+  const auto u = problem.local();
+  const auto &x = problem.mesh->node_coordinates(2);
+  // ε = t/E at half the ramp.
+  for (std::size_t i = 0; i < u.size(); ++i) ASSERT_NEAR(u[i], (i % 3 == 0 ? 0.05 : -0.4 * 0.05) * x[i], 1e-9);
+  EXPECT_NEAR(problem.solver->reactions(problem.u)[0][0], -0.14, 1e-9);
+}
+
+TEST(StaticSolver, TractionsThatCannotBeMeantAreNamed) {
+  const auto message = [](std::initializer_list<std::pair<std::string, std::string>> pairs) -> std::string {
+    ScopedOptions options(pairs);
+    try {
+      Problem problem("elasticity-linear", "1,1,1", 1);
+    } catch (const Error &error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_NE(message({{"-bc_traction", "5"}}).find("-bc_traction_5: 0 numbers"), std::string::npos);
+  EXPECT_NE(message({{"-bc_traction", "8"}, {"-bc_traction_8", "1,0,0"}}).find("value 8"), std::string::npos);
+  EXPECT_NE(message({{"-bc_traction", "5"}, {"-bc_traction_5", "1,0,0"}, {"-method", "mpm"}}).find("-method fem"),
+            std::string::npos);
+}
+
 const std::initializer_list<std::pair<std::string, std::string>> twist{{"-bc_clamp", "1,2"},
                                                                        {"-bc_clamp_2_rotate", "0,0,1,0.6,0"},
                                                                        {"-bc_clamp_2_translate", "0.05,0,0.1"},
