@@ -56,7 +56,8 @@ echo "The same at 27 material points in each cell:"
 
 step "Sinker by finite elements, 5x5x5 cells, 20 load steps"
 "$bin/honeyguide" -options_file "$source_dir/ratel-like/examples/sinker-fem.yml" \
-  -ts_monitor_quantities sinker-fem.csv -ts_monitor_diagnostic_quantities sinker-fem
+  -ts_monitor_quantities sinker-fem.csv -ts_monitor_diagnostic_quantities sinker-fem \
+  -probe "$("$python" "$source_dir/docs/verification/plot_sinker.py" --print-probes 5)"
 
 step "Sinker by material points, 5x5x5 cells, 27 points in each, 20 load steps"
 "$bin/honeyguide" -options_file "$source_dir/ratel-like/examples/sinker-mpm.yml" \

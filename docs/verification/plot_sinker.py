@@ -3,11 +3,15 @@
 
 Each run is METHOD:ELEMENTS:FILE, for example mpm:5:sinker-mpm.csv, where FILE is what honeyguide wrote with
 -ts_monitor_quantities. The published points were read off printed figures, with an error of about 0.002 m.
+
+The published mean of a finite element run is that over the nodes of the sinker, not over its volume, which is 8 % more.
+So that it can be compared, let the run follow those nodes: honeyguide ... -probe $(plot_sinker.py --print-probes ELEMENTS)
 """
 
 import argparse
 import csv
 import pathlib
+import re
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -33,6 +37,7 @@ class Run:
             sys.exit(f"{self.file}: no steps")
         self.load_step, self.force = [], []
         self.down = {curve: [] for curve in CURVES}
+        nodes = sum(re.fullmatch(r"displacement_probe\d+_x", column) is not None for column in rows[0]) - 1
         for row in rows:
             force = self.vector(row, "body_force_sinker")
             size = sum(f * f for f in force) ** 0.5
@@ -43,6 +48,9 @@ class Run:
             for curve, (_, column) in CURVES.items():
                 displacement = self.vector(row, column)
                 self.down[curve].append(sum(u * f for u, f in zip(displacement, force)) / size)
+            if nodes:
+                followed = [self.vector(row, f"displacement_probe{node}") for node in range(1, nodes + 1)]
+                self.down["full_sinker"][-1] = sum(u * f for node in followed for u, f in zip(node, force)) / size / nodes
         if not self.load_step:
             sys.exit(f"{self.file}: no step has a load on the sinker")
 
@@ -61,6 +69,14 @@ class Run:
 
     def label(self):
         return f"{self.method.upper()} {self.elements}³"
+
+
+def probes(elements):
+    """The centre of the sinker, then its nodes on a mesh of order 2, as honeyguide's -probe wants them."""
+    first, last = 4 * elements // 5, 6 * elements // 5
+    line = [node / (2 * elements) for node in range(first, last + 1)]
+    places = [(0.5, 0.5, 0.5)] + [(x, y, z) for z in line for y in line for x in line]
+    return ",".join(f"{coordinate:.12g}" for place in places for coordinate in place)
 
 
 def published_points(file):
@@ -146,12 +162,20 @@ def draw(runs, published, points, output):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs", nargs="+", metavar="METHOD:ELEMENTS:FILE")
+    parser.add_argument("runs", nargs="*", metavar="METHOD:ELEMENTS:FILE")
     parser.add_argument("--published", type=pathlib.Path, default=HERE / "data" / "sinker_published.csv")
     parser.add_argument("--points", help="HDF5 file of the points of a run, drawn beside the curves")
     parser.add_argument("--output", default="sinker.png", help="picture to write (default: sinker.png)")
     parser.add_argument("--no-plot", action="store_true", help="print the table only")
+    parser.add_argument("--print-probes", type=int, metavar="ELEMENTS", help="print what -probe is to be, and end")
     args = parser.parse_args()
+    if args.print_probes:
+        if args.print_probes % 5:
+            sys.exit(f"--print-probes {args.print_probes}: expected a multiple of 5, so that cells fit the sinker")
+        print(probes(args.print_probes))
+        return
+    if not args.runs:
+        parser.error("no runs")
     runs = [Run(argument) for argument in args.runs]
     published = published_points(args.published)
     print_table(runs, published)

@@ -106,7 +106,10 @@ void Setup::say_step(const Record &record) const {
   if (output.quiet) return;
   petsc_check(PetscPrintf(comm, "step %" PetscInt_FMT "  t %g  dt %g  Newton %" PetscInt_FMT "  linear %" PetscInt_FMT,
                           record.step, record.time, record.dt, record.newton_iterations, record.linear_iterations));
-  for (const auto &u : record.probes) petsc_check(PetscPrintf(comm, "  u (%.6g, %.6g, %.6g)", u[0], u[1], u[2]));
+  if (!record.probes.empty()) {  // the others are in the table of -ts_monitor_quantities
+    const auto &u = record.probes.front();
+    petsc_check(PetscPrintf(comm, "  u (%.6g, %.6g, %.6g)", u[0], u[1], u[2]));
+  }
   petsc_check(PetscPrintf(comm, "\n"));
 }
 
