@@ -92,8 +92,9 @@ BoundaryFace read_slip(MPI_Comm comm, PetscInt number) {
   return face;
 }
 
-// A piecewise path of rotations: angles are interpolated, the axis is that of the next time.
-std::array<double, 3> rotated_by(const BoundaryFace &face, double t, std::span<const double, 3> x) {
+// What a face's rotation at time t does to x, or undoes: a piecewise path of rotations whose angles are interpolated
+// and whose axis is that of the next time. A rotation keeps the coordinate along its axis, so the angle can be undone.
+std::array<double, 3> rotated_by(const BoundaryFace &face, double t, std::span<const double, 3> x, double sign = 1.) {
   std::vector<std::array<double, 3>> angles;
   std::size_t next = 0;
   while (next + 1 < face.times.size() && face.times[next] < t) ++next;
@@ -102,7 +103,7 @@ std::array<double, 3> rotated_by(const BoundaryFace &face, double t, std::span<c
   const double k[3] = {row[0] / length, row[1] / length, row[2] / length};
   const double along = k[0] * x[0] + k[1] * x[1] + k[2] * x[2];
   for (const auto &each : face.rotate) angles.push_back({each[3] + each[4] * along, 0, 0});
-  const double theta = vector_at(face.times, angles, face.ramp, t)[0];
+  const double theta = sign * vector_at(face.times, angles, face.ramp, t)[0];
   // Rodrigues: u = sin θ (k × x) + (1 − cos θ) (k (k·x) − x)
   const double s = std::sin(theta), c = 1 - std::cos(theta);
   return {s * (k[1] * x[2] - k[2] * x[1]) + c * (k[0] * along - x[0]),
@@ -129,6 +130,21 @@ std::array<double, 3> BoundaryFace::value(double t, std::span<const double, 3> x
     for (int c = 0; c < 3; ++c) u[c] += turn[c];
   }
   return u;
+}
+
+std::array<double, 3> BoundaryFace::increment(double t_from, double t, std::span<const double, 3> x) const {
+  // where the piece of boundary that is at x now was at first
+  std::array<double, 3> X{x[0], x[1], x[2]};
+  if (!rotate.empty()) {
+    if (!translate.empty()) {
+      const auto moved = vector_at(times, translate, ramp, t_from);
+      for (int c = 0; c < 3; ++c) X[c] -= moved[c];
+    }
+    const auto back = rotated_by(*this, t_from, X, -1.);
+    for (int c = 0; c < 3; ++c) X[c] += back[c];
+  }
+  const auto from = value(t_from, X), to = value(t, X);
+  return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
 }
 
 std::vector<BoundaryFace> BoundaryConditions::read(MPI_Comm comm) {
@@ -191,8 +207,7 @@ void BoundaryConditions::insert(double t, double t_from, double scale, std::span
   for (const auto &[index, f] : entries_) {
     const std::span<const double, 3> x(at.data() + 3 * (index / 3), 3);
     const int c = static_cast<int>(index % 3);
-    local[index] = faces_[f].value(t, x)[c];
-    if (scale != 0) local[index] -= scale * faces_[f].value(t_from, x)[c];
+    local[index] = scale == 0 ? faces_[f].value(t, x)[c] : scale * faces_[f].increment(t_from, t, x)[c];
   }
 }
 

@@ -39,6 +39,10 @@ struct BoundaryFace {
 
   /// Displacement at time t of the node that lies at x.
   std::array<double, 3> value(double t, std::span<const double, 3> x) const;
+  /// Displacement from t_from to t of the piece of the face that lies at x at time t_from. A face that rotates is
+  /// followed back to where it was at first, so that an increment of a rigid motion is one; other faces give the
+  /// difference of their values at x.
+  std::array<double, 3> increment(double t_from, double t, std::span<const double, 3> x) const;
 };
 
 class BoundaryConditions {
@@ -48,8 +52,9 @@ class BoundaryConditions {
   /// The same for given faces; collective.
   BoundaryConditions(Mesh &mesh, std::vector<BoundaryFace> faces);
 
-  /// Writes u(t) − scale u(t_from) into the constrained entries of a local vector of mesh.dm: scale = 0 for the total
-  /// displacement (FEM), 1 for the increment of a step (MPM). Other entries stay.
+  /// Writes into the constrained entries of a local vector of mesh.dm: with scale = 0 the total displacement at t
+  /// (FEM), else scale times the increment from t_from to t (MPM, whose nodes lie at x again in every step). Other
+  /// entries stay.
   void insert(double t, double t_from, double scale, std::span<double> local) const;
 
   const std::vector<BoundaryFace> &faces() const { return faces_; }
