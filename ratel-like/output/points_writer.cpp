@@ -1,7 +1,7 @@
 #include "output/points_writer.hpp"
 
 #include <cstdio>
-#include <filesystem>
+#include <numeric>
 #include <vector>
 
 #include "options/error.hpp"
@@ -32,8 +32,12 @@ class PointFile {
   /// The places of the points: geometry, not an attribute.
   void places(std::span<const double> x) {
     file_.write("x", H5T_NATIVE_DOUBLE, x.data(), rows_, 3);
-    const std::string n = std::to_string(rows_.total);
-    geometry_ = "  <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + n + "\" NodesPerElement=\"1\"/>\n" +
+    // One cell for each point: without a list of them ParaView has points but nothing to draw or to filter.
+    std::vector<std::int64_t> vertex(rows_.local);
+    std::iota(vertex.begin(), vertex.end(), static_cast<std::int64_t>(rows_.first));
+    file_.write("vertex", H5T_NATIVE_INT64, vertex.data(), rows_, 0);
+    geometry_ = "  <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + std::to_string(rows_.total) +
+                "\" NodesPerElement=\"1\">\n" + item("vertex", 1, "Int", 8) + "  </Topology>\n" +
                 "  <Geometry GeometryType=\"XYZ\">\n" + item("x", 3, "Float", 8) + "  </Geometry>\n";
   }
   std::string text() const { return geometry_ + attributes_; }
@@ -101,7 +105,7 @@ void PointsWriter::write(PetscInt step, PetscReal time, const Swarm &swarm, std:
   const std::string path = numbered(prefix_, step, ".h5"), temporary = path + ".tmp";
   std::string text;
   try {
-    std::uint64_t bytes = (3 + 3 + 3 + 1 + 1 + 1) * sizeof(double) + sizeof(std::int32_t) + sizeof(std::int64_t);
+    std::uint64_t bytes = (3 + 3 + 3 + 1 + 1) * sizeof(double) + sizeof(std::int32_t) + 2 * sizeof(std::int64_t);
     for (const ExtraPointField &f : extra) bytes += (f.components == 6 ? 9 : f.components) * sizeof(double);
     std::string full = reserve(comm_, temporary, n * bytes);
     if (!full.empty()) full = "cannot write " + path + ": " + full;

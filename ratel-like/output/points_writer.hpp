@@ -21,7 +21,8 @@ struct ExtraPointField {
 /// `<prefix>.xdmf`, a temporal collection that is complete and readable after every write.
 ///
 /// Always written: x, displacement (u), velocity (v), volume (V), J (det F), region, id; plus the extra fields, such as
-/// the Cauchy stress. Datasets lie in rank order, storage order within a rank.
+/// the Cauchy stress; and `vertex`, one cell for each point, so that viewers have something to draw. Datasets lie in
+/// rank order, storage order within a rank.
 class PointsWriter {
  public:
   /// Nothing is written yet. A directory in the prefix must exist.

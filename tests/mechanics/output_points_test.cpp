@@ -137,6 +137,10 @@ TEST_F(OutputPoints, xdmf_lists_every_output_and_describes_the_hdf5) {
     EXPECT_EQ(std::stod(grid.one("Time").at("Value")), 0.1 * 5 * i);
     EXPECT_EQ(grid.one("Topology").at("TopologyType"), "Polyvertex");
     EXPECT_EQ(grid.one("Topology").at("NumberOfElements"), "192");
+    std::vector<hsize_t> dims;
+    const std::string &cells = grid.one("Topology").one("DataItem").text;
+    const auto vertex = h5_dataset<std::int64_t>(folder / cells.substr(0, cells.find(':')), "vertex", dims);
+    for (std::size_t p = 0; p < vertex.size(); p++) EXPECT_EQ(vertex[p], static_cast<std::int64_t>(p));
     EXPECT_EQ(grid.one("Geometry").at("GeometryType"), "XYZ");
     for (const char *name : {"displacement", "velocity", "volume", "J", "region", "id"}) {
       EXPECT_EQ(grid.named("Attribute", name).at("Center"), "Node");
@@ -144,7 +148,7 @@ TEST_F(OutputPoints, xdmf_lists_every_output_and_describes_the_hdf5) {
     EXPECT_EQ(grid.named("Attribute", "displacement").at("AttributeType"), "Vector");
     int items = 0;
     check_items(grid, folder / "", items);
-    EXPECT_EQ(items, 7);
+    EXPECT_EQ(items, 8);
   }
   const std::vector<std::string> files = folder.files();
   EXPECT_EQ(files,
