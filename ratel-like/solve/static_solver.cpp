@@ -24,6 +24,9 @@ PetscErrorCode jacobian_callback(SNES, Vec u, Mat, Mat, void *context) {
   return guard([&] { self(context).jacobian(u); });
 }
 
+// A step that goes well needs 4 to 8 iterations; one that needs more is lost.
+constexpr PetscInt quick_iterations = 12;
+
 bool finite_everywhere(Vec f) {
   PetscReal norm;
   petsc_check(VecNorm(f, NORM_2, &norm));
@@ -45,6 +48,7 @@ StaticSolver::StaticSolver(const Mesh &mesh, SolidOperators &operators, const Bo
 
   petsc_check(DMCreateGlobalVector(mesh.dm, residual_.put()));
   petsc_check(VecDuplicate(residual_, trial_.put()));
+  petsc_check(VecDuplicate(residual_, guess_.put()));
   petsc_check(DMCreateLocalVector(mesh.dm, local_u_.put()));
   petsc_check(VecDuplicate(local_u_, local_r_.put()));
   petsc_check(VecDuplicate(local_u_, local_load_.put()));
@@ -72,6 +76,14 @@ StaticSolver::StaticSolver(const Mesh &mesh, SolidOperators &operators, const Bo
     if (PetscDefined(HAVE_MUMPS)) petsc_check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   }
   petsc_check(SNESSetFromOptions(snes_));
+  PetscInt max_iterations;
+  petsc_check(SNESGetTolerances(snes_, nullptr, nullptr, nullptr, &max_iterations, nullptr));
+  if (group.given("snes_linesearch_type") || group.given("snes_type")) {
+    attempts_ = {{nullptr, max_iterations}};
+  } else {
+    attempts_ = {{SNESLINESEARCHCP, std::min<PetscInt>(max_iterations, quick_iterations)},
+                 {SNESLINESEARCHBT, max_iterations}};
+  }
   SNESLineSearch search;
   petsc_check(SNESGetLineSearch(snes_, &search));
   petsc_check(SNESLineSearchSetPreCheck(
@@ -208,11 +220,29 @@ SolveResult StaticSolver::solve(const Step &step, Vec u) {
     petsc_check(SNESGetTolerances(snes_, nullptr, &rtol, &stol, &max_it, &max_f));
     petsc_check(SNESSetTolerances(snes_, std::max(1e-10 * scale_, 1e-50), rtol, stol, max_it, max_f));
   }
-  petsc_check(SNESSolve(snes_, nullptr, u));
-  SNESConvergedReason reason;
-  petsc_check(SNESGetConvergedReason(snes_, &reason));
-  petsc_check(SNESGetIterationNumber(snes_, &result.newton_iterations));
-  petsc_check(SNESGetLinearSolveIterations(snes_, &result.linear_iterations));
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  petsc_check(VecCopy(u, guess_));
+  for (const Attempt &attempt : attempts_) {
+    // Each attempt starts from the caller's guess.
+    if (reason != SNES_CONVERGED_ITERATING) petsc_check(VecCopy(guess_, u));
+    if (attempt.line_search) {
+      SNESLineSearch search;
+      petsc_check(SNESGetLineSearch(snes_, &search));
+      petsc_check(SNESLineSearchSetType(search, attempt.line_search));
+      PetscReal atol, rtol, stol;
+      PetscInt max_f;
+      petsc_check(SNESGetTolerances(snes_, &atol, &rtol, &stol, nullptr, &max_f));
+      petsc_check(SNESSetTolerances(snes_, atol, rtol, stol, attempt.max_iterations, max_f));
+    }
+    PetscInt newton, linear;
+    petsc_check(SNESSolve(snes_, nullptr, u));
+    petsc_check(SNESGetConvergedReason(snes_, &reason));
+    petsc_check(SNESGetIterationNumber(snes_, &newton));
+    petsc_check(SNESGetLinearSolveIterations(snes_, &linear));
+    result.newton_iterations += newton;
+    result.linear_iterations += linear;
+    if (reason > 0) break;
+  }
   result.converged = reason > 0;
   result.reason = SNESConvergedReasons[reason];
   if (reason == SNES_DIVERGED_LINEAR_SOLVE) {

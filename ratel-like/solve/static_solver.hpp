@@ -31,10 +31,13 @@ struct Step {
   bool increment = false;
 };
 
-/// One SNES for the whole run (options -snes_*, -ksp_*, -pc_*, -mat_type). Defaults: Newton with backtracking, relative
-/// tolerance 1e-8; shell matrix with CG and Jacobi to 1e-6; aij with a direct solver.
+/// One SNES for the whole run (options -snes_*, -ksp_*, -pc_*, -mat_type). Defaults: relative tolerance 1e-8; shell
+/// matrix with CG and Jacobi to 1e-6; aij with a direct solver.
 ///
-/// A trial step of Newton that would invert an element is halved until it does not.
+/// A trial step of Newton that would invert an element is halved until it does not. The line search for a critical
+/// point of the energy is tried first, because the norm of the residual may rise on the way of a Newton that converges;
+/// if it does not converge soon, backtracking on the norm starts again from the same guess. An option
+/// -snes_linesearch_type or -snes_type takes the place of both.
 class StaticSolver {
  public:
   /// Mesh with its constraints, operators and boundary conditions outlive the solver. Collective.
@@ -87,7 +90,13 @@ class StaticSolver {
   bool keep_tolerance_ = false;  ///< the user gave -snes_atol
   std::unique_ptr<JacobianMat> jacobian_;
   std::vector<PetscInt> inactive_;
-  VecHandle residual_, trial_, boundary_values_, local_u_, local_r_, local_load_;
+  /// Ways to solve a step, tried in turn from the same guess.
+  struct Attempt {
+    const char *line_search;  ///< nullptr: as the options say
+    PetscInt max_iterations;
+  };
+  std::vector<Attempt> attempts_;
+  VecHandle residual_, trial_, guess_, boundary_values_, local_u_, local_r_, local_load_;
   CeedVectorHandle ceed_u_, ceed_r_;
   SnesHandle snes_;
 };
