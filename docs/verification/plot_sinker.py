@@ -125,7 +125,8 @@ def draw_points(axis, file):
              aspect="equal")
     axis.grid(False)
     axis.legend(loc="upper right", fontsize=8)
-    axis.figure.colorbar(drawn, ax=axis, label="downward displacement of the foam [m]", shrink=0.85)
+    bar = axis.figure.colorbar(drawn, ax=axis, label="downward displacement of the foam [m]", shrink=0.85)
+    bar.ax.set_ylim(0, 0.4)  # the paler end of the colours is for paper
 
 
 def draw(runs, published, points, output):
@@ -156,7 +157,7 @@ def draw(runs, published, points, output):
                           label=f"published {run.label()}")
         axis.set(title="Force on the sinker", xlabel=f"downward displacement, {name} [m]", ylabel="force [GN]")
         axis.legend(frameon=False, fontsize=8)
-    figure.savefig(output, dpi=130)
+    figure.savefig(output, dpi=110)
     print(f"wrote {output}", file=sys.stderr)
 
 
