@@ -102,7 +102,9 @@ void H5File::transfer(const std::string &name, hid_t dataset, hid_t type, const 
 void H5File::write(const std::string &name, hid_t type, const void *data, const H5Rows &rows, hsize_t width) {
   const hsize_t dims[2] = {rows.total, width};
   const H5Id space(H5Screate_simple(width ? 2 : 1, dims, nullptr), H5Sclose);
-  H5Id dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const H5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(properties, false);  // the same state gives the same file, byte by byte
+  H5Id dataset(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
   check(dataset.ok(), "dataset " + name);
   if (!dataset.ok()) return;
   transfer(name, dataset, type, rows, width, data, nullptr);
