@@ -4,6 +4,7 @@ hg_mechanics_test(options_group_test)
 hg_mechanics_test(solve_clock_test)
 hg_mechanics_test(boundary_conditions_test RANKS 1 2 3)
 hg_mechanics_test(static_solver_test RANKS 1 2 3)
+hg_mechanics_test(monitors_test RANKS 1 2 3)
 
 # Tests that run the program: no MPI in the test itself.
 function(hg_program_test name)
