@@ -121,7 +121,7 @@ void StaticSolver::external_force(const Step &step) {
   } else {
     Lend load(local_load_, ceed_r_, Access::write);
     if (force.kind == BodyForce::Kind::mms) {
-      operators_.mms_force(mms_factor(step.t, final_time_), ceed_r_);
+      operators_.mms_force(mms_amplitude * mms_factor(step.t, final_time_), ceed_r_);
     } else {
       operators_.body_force(vector_at(force.times, force.vectors, force.ramp, step.t), ceed_r_);
     }
