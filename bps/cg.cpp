@@ -47,10 +47,10 @@ CgResult conjugate_gradients(Ceed ceed, const Bakeoff &A, CeedVector mask, CeedV
   const CeedSize length = A.num_dofs();
   CeedMemType preferred = CEED_MEM_HOST;
   check(ceed, CeedGetPreferredMemType(ceed, &preferred));
-  const bool on_device = preferred == CEED_MEM_DEVICE;
+  const bool by_norms = options.dot == Dot::by_norms || (options.dot == Dot::preferred && preferred == CEED_MEM_DEVICE);
   if (mask) check(ceed, CeedVectorPointwiseMult(b, b, mask));
   Vector r = make_vector(ceed, length), p = make_vector(ceed, length), Ap = make_vector(ceed, length), work;
-  if (on_device) work = make_vector(ceed, length);
+  if (by_norms) work = make_vector(ceed, length);
   check(ceed, CeedVectorSetValue(x, 0));
   check(ceed, CeedVectorCopy(b, r));
   check(ceed, CeedVectorCopy(b, p));
@@ -62,7 +62,7 @@ CgResult conjugate_gradients(Ceed ceed, const Bakeoff &A, CeedVector mask, CeedV
   while (result.iterations < options.max_iterations && r_norm > options.relative_tolerance * b_norm) {
     A.apply(p, Ap);
     if (mask) check(ceed, CeedVectorPointwiseMult(Ap, Ap, mask));
-    const double pAp = on_device ? dot_by_norms(ceed, p, Ap, work) : dot_on_host(ceed, p, Ap, length);
+    const double pAp = by_norms ? dot_by_norms(ceed, p, Ap, work) : dot_on_host(ceed, p, Ap, length);
     if (!(pAp > 0)) break;  // not positive definite, or not a number: the caller sees that it did not converge
     const double alpha = r_norm * r_norm / pAp;
     check(ceed, CeedVectorAXPY(x, alpha, p));

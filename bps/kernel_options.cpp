@@ -67,7 +67,7 @@ ParsedOptions parse_options(int argc, const char *const *argv) {
       "The CEED bake-off problems BP1 to BP6 on a deformed box, at quadrature points or at material points:\n"
       "times the operator and conjugate gradients on any backend of the library that this program finds."};
   std::vector<std::string> resources{"/cpu/self"}, problems{"bp3"};
-  std::string degree = "1-4", dofs = "1e5", points, placement, json;
+  std::string degree = "1-4", dofs = "1e5", points, placement, json, dot = "auto";
   KernelOptions options;
   app.add_option("--ceed", resources, "backend resource; repeat for several, `all` for every one that works here")
       ->capture_default_str();
@@ -92,6 +92,11 @@ ParsedOptions parse_options(int argc, const char *const *argv) {
   app.add_option("--cg-tolerance", options.cg.relative_tolerance, "relative residual at which CG has converged")
       ->capture_default_str()
       ->check(CLI::Range(0., 1.));
+  app.add_option("--cg-dot", dot,
+                 "dot products of CG: `host` sums arrays, `norms` keeps vectors on the device, `auto` as the backend\n"
+                 "prefers")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "host", "norms"}));
   app.add_flag("--check", options.check,
                "test instead of time: CG converges, errors fall at the optimal rate on two meshes, and points at the\n"
                "quadrature points reproduce the operator at quadrature points to 1e-12; exit code 1 if any fails");
@@ -114,6 +119,7 @@ ParsedOptions parse_options(int argc, const char *const *argv) {
   for (const auto &placement : options.placements)
     for (const CeedInt per_cell : options.points)
       if (placement) require_point_count(*placement, per_cell);
+  options.cg.dot = dot == "host" ? Dot::on_host : dot == "norms" ? Dot::by_norms : Dot::preferred;
   if (!json.empty()) options.json = json;
   options.resources = resolve_resources(resources);
   return {options, 0};

@@ -11,7 +11,7 @@ namespace {
 /// Lends the array of a PETSc vector, wherever it lies, to a vector of the C interface.
 class Lent {
  public:
-  Lent(Ceed ceed, Vec from, CeedVector to, bool write) : ceed_(ceed), from_(from), to_(to), write_(write) {
+  Lent(Ceed ceed, Vec from, CeedVector to, bool write) : from_(from), to_(to), write_(write) {
     PetscMemType where = PETSC_MEMTYPE_HOST;
     ok(write ? VecGetArrayAndMemType(from, &array_, &where)
              : VecGetArrayReadAndMemType(from, const_cast<const PetscScalar **>(&array_), &where));
@@ -30,7 +30,6 @@ class Lent {
   }
 
  private:
-  Ceed ceed_;
   Vec from_;
   CeedVector to_;
   bool write_;

@@ -117,6 +117,26 @@ TEST(Kernel, SolvesTheSameProblemTwiceAlike) {
   EXPECT_EQ(error("first"), error("second"));
 }
 
+/// The dot product made of norms, for vectors that live on a device, gives the iterations of the one on the host.
+TEST(Kernel, SolvesWithoutHostAccessAlike) {
+  const TemporaryFolder folder;
+  const auto record = [&](const std::string &dot) {
+    const auto file = folder / dot;
+    const Finished finished =
+        kernel("--problem bp1,bp3 --degree 5 --dofs 2000 --reps 1 --cg-iterations 2000 --cg-dot " + dot + " --json " +
+               quoted(file) + reference);
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    return read_json(file);
+  };
+  const auto host = record("host"), norms = record("norms");
+  for (int i = 0; i < 2; i++) {
+    ASSERT_TRUE(norms.at(i)["cg_converged"].get<bool>());
+    const int iterations = host.at(i)["cg_iterations"];
+    EXPECT_NEAR(norms[i]["cg_iterations"].get<int>(), iterations, 2 + iterations / 20);
+    EXPECT_NEAR(norms[i]["error"].get<double>() / host[i]["error"].get<double>(), 1, 1e-4);
+  }
+}
+
 struct BadOptions {
   const char *arguments, *fragments[2];
   friend void PrintTo(const BadOptions &which, std::ostream *stream) { *stream << which.arguments; }
@@ -150,7 +170,7 @@ TEST(Kernel, HelpNamesEveryOption) {
   const Finished finished = kernel("--help");
   EXPECT_EQ(finished.code, 0);
   for (const char *option : {"--ceed", "--problem", "--degree", "--dofs", "--points", "--placement", "--json", "--reps",
-                             "--cg-iterations", "--cg-tolerance", "--check", "--quiet"})
+                             "--cg-iterations", "--cg-tolerance", "--cg-dot", "--check", "--quiet"})
     EXPECT_EQ(count(finished.out, std::string("  ") + option + " "), 1) << option << "\n" << finished.out;
 }
 
