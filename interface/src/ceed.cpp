@@ -56,7 +56,11 @@ int CeedInit(const char *resource, Ceed *ceed) {
   return hg::guard(nullptr, [&] {
     hg::require(resource != nullptr, CEED_ERROR_MINOR, "Resource is NULL; expected a name such as \"/cpu/self\"");
     hg::require(ceed != nullptr, CEED_ERROR_MINOR, "Address of the Ceed is NULL");
-    const std::string_view request = resource;
+    std::string_view request = resource;
+    if (request.substr(0, request.find(':')) == "help") {
+      hg::print_resources(stderr);
+      request.remove_prefix(std::min<std::size_t>(request.size(), 5));
+    }
     const auto colon = request.find(':');
     const std::string name(request.substr(0, colon));
     const std::string options(colon == std::string_view::npos ? "" : request.substr(colon + 1));

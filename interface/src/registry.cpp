@@ -23,30 +23,42 @@ Registry &the_registry() {
   return registry;
 }
 
-/// Names that only libCEED has lead to the nearest of ours: their users' scripts run. The target is a request, not a
-/// backend: it resolves to whatever is there.
-std::string_view nearest_of_ours(std::string_view request) {
-  static const std::pair<std::string_view, std::string_view> foreign[] = {
-      {"/cpu/self/opt", "/cpu/self"},        {"/cpu/self/xsmm", "/cpu/self"},  {"/cpu/self/ref/blocked", "/cpu/self/ref"},
-      {"/gpu/cuda/shared", "/gpu/cuda/gen"}, {"/gpu/hip/shared", "/gpu/hip/gen"},
-      {"/cpu/self/memcheck/blocked", "/cpu/self/memcheck"},
-  };
-  for (const auto &[theirs, ours] : foreign) {
-    if (request.substr(0, theirs.size()) == theirs) return ours;
-  }
-  return request;
+/// Whether `name` is `prefix`, or goes on after it with another component.
+bool starts_with_components(std::string_view name, std::string_view prefix) {
+  if (name.substr(0, prefix.size()) != prefix) return false;
+  return name.size() == prefix.size() || name[prefix.size()] == '/';
 }
 
-/// Length of the prefix of `name` that `request` matches, in whole path components: "/cpu/self/re" is no prefix of
-/// "/cpu/self/ref". The request must match to its end or to a component that the backend does not have.
-std::size_t common_prefix(std::string_view request, std::string_view name) {
-  std::size_t matched = 0;
-  for (std::size_t i = 0;; i++) {
-    const bool request_ends = i == request.size() || request[i] == '/';
-    const bool name_ends = i == name.size() || name[i] == '/';
-    if (request_ends && name_ends) matched = i;
-    if (i == request.size() || i == name.size() || request[i] != name[i]) return matched;
+/// Names that only libCEED has, or that are ours where their plugin is built, lead to the nearest of ours: their users'
+/// scripts run. The target is a request, not a backend: it resolves to whatever is there. Empty for other names.
+std::string_view nearest_of_ours(std::string_view request) {
+  if (request.empty()) return {};
+  static const std::pair<std::string_view, std::string_view> foreign[] = {
+      {"/cpu/self/opt/serial", "/cpu/self"},        {"/cpu/self/opt/blocked", "/cpu/self"},
+      {"/cpu/self/avx/serial", "/cpu/self"},        {"/cpu/self/avx/blocked", "/cpu/self"},
+      {"/cpu/self/xsmm/serial", "/cpu/self"},       {"/cpu/self/xsmm/blocked", "/cpu/self"},
+      {"/cpu/self/ref/blocked", "/cpu/self/ref"},
+      {"/cpu/self/memcheck/blocked", "/cpu/self/memcheck"}, {"/gpu/cuda/shared", "/gpu/cuda"},
+      {"/gpu/cuda/magma/det", "/gpu/cuda"},         {"/gpu/hip/shared", "/gpu/hip"},
+      {"/gpu/hip/magma/det", "/gpu/hip"},
+  };
+  for (const auto &[theirs, ours] : foreign) {
+    if (starts_with_components(theirs, request)) return ours;
   }
+  return {};
+}
+
+/// The resource that shares most characters with the request; NULL where none shares more than the first.
+const char *closest(std::string_view request, const std::vector<RegistryEntry> &entries) {
+  std::size_t longest = 1;
+  const char *found = nullptr;
+  for (const auto &entry : entries) {
+    const std::string_view name = entry.resource;
+    const auto end = std::mismatch(request.begin(), request.end(), name.begin(), name.end()).first;
+    const auto shared = static_cast<std::size_t>(end - request.begin());
+    if (shared > longest) longest = shared, found = entry.resource;
+  }
+  return found;
 }
 
 /// Checks that a backend and its ancestors have filled all entries that are not optional.
@@ -140,30 +152,32 @@ int score_of(const CeedBackend &backend, std::string &reason) {
 }
 
 const CeedBackend &find_backend(std::string_view request) {
-  const std::string_view wanted = nearest_of_ours(request);
   const auto entries = registry();
-  std::size_t longest = 0;
-  for (const auto &entry : entries) longest = std::max(longest, common_prefix(wanted, entry.resource));
-  const CeedBackend *best = nullptr;
   std::string unavailable;
-  for (const auto &entry : entries) {
-    if (longest == 0 || common_prefix(wanted, entry.resource) != longest) continue;
-    std::string reason;
-    if (score_of(*entry.backend, reason) <= 0) {
-      unavailable += std::string("\n  ") + entry.resource + " is not available on this machine: " + reason;
-      continue;
+  for (const std::string_view wanted : {request, nearest_of_ours(request)}) {
+    if (wanted.empty()) continue;
+    const CeedBackend *best = nullptr;
+    for (const auto &entry : entries) {
+      if (!starts_with_components(entry.resource, wanted)) continue;
+      std::string reason;
+      if (score_of(*entry.backend, reason) <= 0) {
+        unavailable += std::string("\n  ") + entry.resource + " is not available on this machine: " + reason;
+        continue;
+      }
+      if (best == nullptr || entry.backend->priority < best->priority) best = entry.backend;
     }
-    if (best == nullptr || entry.backend->priority < best->priority) best = entry.backend;
+    if (best != nullptr) return *best;
   }
-  // "/gpu/cuda" must not end on a host backend, so a match has at least two components ("/cpu/self"), or the request
-  // has only one.
-  const auto components = [](std::string_view name) { return std::count(name.begin(), name.end(), '/'); };
-  const bool is_close = longest > 0 && (components(wanted.substr(0, longest)) >= 2 || components(wanted) < 2);
-  require(best != nullptr && is_close, CEED_ERROR_MAJOR, [&] {
-    return text("No suitable backend: %.*s%s\nAvailable backend resources:%s", static_cast<int>(request.size()),
-                request.data(), unavailable.c_str(), resource_list().c_str());
-  });
-  return *best;
+  const char *near = closest(request, entries);
+  throw Error(CEED_ERROR_MAJOR, text("No suitable backend: %.*s%s%s%s\nAvailable backend resources:%s",
+                                     static_cast<int>(request.size()), request.data(), unavailable.c_str(),
+                                     near != nullptr ? "\nClosest match: " : "", near != nullptr ? near : "",
+                                     resource_list().c_str()));
+}
+
+void print_resources(FILE *stream) {
+  std::fprintf(stream, "Honeyguide, interface version %d.%d.%d\nAvailable backend resources:%s\n", CEED_VERSION_MAJOR,
+               CEED_VERSION_MINOR, CEED_VERSION_PATCH, resource_list().c_str());
 }
 
 const CeedBackend &backend_named(std::string_view resource) {

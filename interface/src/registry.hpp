@@ -4,6 +4,7 @@
 
 #include <ceed/plugin.h>
 
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,9 +22,13 @@ struct RegistryEntry {
 std::vector<RegistryEntry> registry();
 /// Adds the backends of a plugin. Throws if its version or a name in it does not fit; then nothing is added.
 void register_plugin(const CeedPlugin &plugin);
-/// The backend for a request: longest common prefix, then a positive score, then lowest priority. Throws
-/// CEED_ERROR_MAJOR with the list of resources where none fits.
+/// The backend for a request: those whose name begins with it, in whole components ("/cpu/self" is a beginning of
+/// "/cpu/self/ref/serial", "/cpu/self/re" is not); of these one with a positive score and the lowest priority. Names
+/// that only libCEED has lead to the nearest of ours. Throws CEED_ERROR_MAJOR with the list of resources where none
+/// fits: a misspelt name must not open another backend.
 const CeedBackend &find_backend(std::string_view request);
+/// Prints the version and the resources that can be asked for.
+void print_resources(FILE *stream);
 /// The backend with this very name, own name only. Throws where there is none.
 const CeedBackend &backend_named(std::string_view resource);
 /// Score of the backend on this machine; `reason` says why it is 0.

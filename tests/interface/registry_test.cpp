@@ -59,12 +59,11 @@ TEST(Registry, OpensByFullName) {
   EXPECT_EQ(resolved("/zoo/cat/lion"), "/zoo/cat/lion");
 }
 
-TEST(Registry, PrefersTheLongestMatchThenTheLowestPriority) {
+TEST(Registry, OpensByPrefixThenPriority) {
   register_zoo();
   EXPECT_EQ(resolved("/zoo"), "/zoo/cat/lynx");
   EXPECT_EQ(resolved("/zoo/cat"), "/zoo/cat/lynx");
   EXPECT_EQ(resolved("/zoo/zebra"), "/zoo/zebra");
-  EXPECT_EQ(resolved("/zoo/zebra/young"), "/zoo/zebra");
   EXPECT_EQ(resolved("/zoo/striped horse"), "/zoo/zebra");
 }
 
@@ -95,7 +94,8 @@ TEST(Registry, OpensWhatOnlyLibCeedHas) {
 
 TEST(Registry, ListsWhatThereIsWhereNothingFits) {
   register_zoo();
-  for (const char *request : {"/abacus", "abacus", "", "/cpu/remote", "/abacus:beads=7"}) {
+  for (const char *request : {"/abacus", "abacus", "", "/", "/cpu/remote", "/cpu/self/re", "/cpu/self/ref/serial/more",
+                              "/zoo/zebra/young", "/abacus:beads=7"}) {
     const std::string message = refusal(request);
     const std::string name = std::string(request).substr(0, std::string(request).find(':'));
     EXPECT_NE(message.find("No suitable backend: " + name), std::string::npos) << message;
@@ -103,6 +103,21 @@ TEST(Registry, ListsWhatThereIsWhereNothingFits) {
     EXPECT_NE(message.find("/cpu/self/ref/serial"), std::string::npos) << message;
     EXPECT_NE(message.find("/zoo/cat/lynx"), std::string::npos) << message;
   }
+}
+
+/// A misspelt name opens nothing, and the message says what is near.
+TEST(Registry, NamesTheClosestMatch) {
+  const std::string message = refusal("/cpu/self/ref/seriak");
+  EXPECT_NE(message.find("Closest match: /cpu/self/ref/serial"), std::string::npos) << message;
+  EXPECT_EQ(refusal("abacus").find("Closest match"), std::string::npos);
+}
+
+TEST(Registry, HelpsOnRequest) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(resolved("help:/cpu/self/ref"), "/cpu/self/ref/serial");
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_NE(text.find("Available backend resources:\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("/cpu/self/ref/serial"), std::string::npos) << text;
 }
 
 /// A device that is not there must not become a host backend without a word.

@@ -75,8 +75,9 @@ CEED_EXTERN int CeedObjectDestroy(CeedObject *obj);
 /// Registered resources: *n names in *resources and their priorities in *array (lower is preferred). The caller frees
 /// both arrays with free(), not the names. Each of the two may be NULL.
 CEED_EXTERN int CeedRegistryGetList(size_t *n, char ***const resources, CeedInt **array);
-/// Opens the backend whose name fits `resource` best: the longest common prefix, then the lowest priority. What follows
-/// a colon ("/gpu/cuda:device_id=1") is passed on to the backend.
+/// Opens the backend whose name begins with `resource`, in whole components ("/cpu/self" opens "/cpu/self/ref/serial");
+/// of several the one with the lowest priority that this machine can run. What follows a colon
+/// ("/gpu/cuda:device_id=1") is passed on to the backend. "help:" before the name prints the resources to stderr.
 /// Error CEED_ERROR_MAJOR: no backend fits; the message lists those there are.
 CEED_EXTERN int CeedInit(const char *resource, Ceed *ceed);
 /// Stream (CUstream, hipStream_t) on which a device backend works; host backends take none.
