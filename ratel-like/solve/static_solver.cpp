@@ -5,6 +5,7 @@
 
 #include "mesh/lend.hpp"
 #include "options/error.hpp"
+#include "solve/slope_search.hpp"
 
 namespace hg {
 
@@ -14,18 +15,15 @@ StaticSolver &self(void *context) {
   return *static_cast<StaticSolver *>(context);
 }
 
-PetscErrorCode residual_callback(SNES snes, Vec u, Vec f, void *context) {
-  return guard([&] {
-    if (!self(context).residual(u, f)) petsc_check(SNESSetFunctionDomainError(snes));
-  });
+PetscErrorCode residual_callback(SNES, Vec u, Vec f, void *context) {
+  return guard([&] { self(context).residual(u, f); });
 }
 
 PetscErrorCode jacobian_callback(SNES, Vec u, Mat, Mat, void *context) {
   return guard([&] { self(context).jacobian(u); });
 }
 
-// A step that goes well needs 4 to 8 iterations; one that needs more is lost.
-constexpr PetscInt quick_iterations = 12;
+constexpr const char *slope_search = "slope";
 
 bool finite_everywhere(Vec f) {
   PetscReal norm;
@@ -81,8 +79,7 @@ StaticSolver::StaticSolver(const Mesh &mesh, SolidOperators &operators, const Bo
   if (group.given("snes_linesearch_type") || group.given("snes_type")) {
     attempts_ = {{nullptr, max_iterations}};
   } else {
-    attempts_ = {{SNESLINESEARCHCP, std::min<PetscInt>(max_iterations, quick_iterations)},
-                 {SNESLINESEARCHBT, max_iterations}};
+    attempts_ = {{slope_search, max_iterations}, {SNESLINESEARCHBT, max_iterations}};
   }
   SNESLineSearch search;
   petsc_check(SNESGetLineSearch(snes_, &search));
@@ -228,7 +225,11 @@ SolveResult StaticSolver::solve(const Step &step, Vec u) {
     if (attempt.line_search) {
       SNESLineSearch search;
       petsc_check(SNESGetLineSearch(snes_, &search));
-      petsc_check(SNESLineSearchSetType(search, attempt.line_search));
+      if (attempt.line_search == slope_search) {
+        use_slope_search(snes_);
+      } else {
+        petsc_check(SNESLineSearchSetType(search, attempt.line_search));
+      }
       PetscReal atol, rtol, stol;
       PetscInt max_f;
       petsc_check(SNESGetTolerances(snes_, &atol, &rtol, &stol, nullptr, &max_f));

@@ -34,10 +34,10 @@ struct Step {
 /// One SNES for the whole run (options -snes_*, -ksp_*, -pc_*, -mat_type). Defaults: relative tolerance 1e-8; shell
 /// matrix with CG and Jacobi to 1e-6; aij with a direct solver.
 ///
-/// A trial step of Newton that would invert an element is halved until it does not. The line search for a critical
-/// point of the energy is tried first, because the norm of the residual may rise on the way of a Newton that converges;
-/// if it does not converge soon, backtracking on the norm starts again from the same guess. An option
-/// -snes_linesearch_type or -snes_type takes the place of both.
+/// The step is first solved with the line search of slope_search.hpp, which lets the norm of the residual rise where a
+/// Newton that converges needs it; if that fails, from the same guess by backtracking on the norm, where a trial step
+/// that would invert an element is halved until it does not. An option -snes_linesearch_type or -snes_type takes the
+/// place of both.
 class StaticSolver {
  public:
   /// Mesh with its constraints, operators and boundary conditions outlive the solver. Collective.
