@@ -43,8 +43,8 @@ int keep_ceed_error(Ceed, const char *, int, const char *function, int code, con
   return code;
 }
 
-std::string place(const std::source_location &where) {
-  return std::string(where.file_name()) + ":" + std::to_string(where.line());
+std::string place(const SourcePlace &where) {
+  return std::string(where.file) + ":" + std::to_string(where.line);
 }
 
 }  // namespace
@@ -68,20 +68,20 @@ void keep_ceed_errors(Ceed ceed) {
   ceed_check(CeedSetErrorHandler(ceed, keep_ceed_error));
 }
 
-void throw_petsc(int code, const std::source_location &where) {
+void throw_petsc(int code, const SourcePlace &where) {
   std::string message = std::exchange(petsc_message, {});
   if (message.empty()) message = "PETSc error " + std::to_string(code) + " (" + place(where) + ")";
   throw Error(message);
 }
 
-void throw_ceed(int code, const std::source_location &where) {
+void throw_ceed(int code, const SourcePlace &where) {
   std::string message = std::exchange(ceed_message, {});
   if (message.empty()) message = "CEED error " + std::to_string(code) + " (" + place(where) + ")";
   throw Error(message);
 }
 
-PetscErrorCode raise_in_petsc(const char *message, const std::source_location &where) {
-  return PetscError(PETSC_COMM_SELF, static_cast<int>(where.line()), where.function_name(), where.file_name(),
+PetscErrorCode raise_in_petsc(const char *message, const SourcePlace &where) {
+  return PetscError(PETSC_COMM_SELF, static_cast<int>(where.line), where.function, where.file,
                     PETSC_ERR_USER, PETSC_ERROR_INITIAL, "%s", message);
 }
 

@@ -10,11 +10,23 @@
 #include <ceed.h>
 #include <petscsys.h>
 
-#include <source_location>
 #include <stdexcept>
 #include <string>
 
 namespace hg {
+
+/// Where a call stands in the source. (std::source_location needs a built-in function that clang 14 lacks.)
+struct SourcePlace {
+  const char *file = "";
+  int line = 0;
+  const char *function = "";
+
+  /// As the default value of a parameter: the place of the call.
+  static constexpr SourcePlace here(const char *file = __builtin_FILE(), int line = __builtin_LINE(),
+                                    const char *function = __builtin_FUNCTION()) {
+    return {file, line, function};
+  }
+};
 
 /// A message for the user: names the object or option, the value found, and what was expected.
 class Error : public std::runtime_error {
@@ -37,27 +49,27 @@ class PetscErrorScope {
 /// Makes `ceed` keep its error messages for ceed_check instead of aborting.
 void keep_ceed_errors(Ceed ceed);
 
-[[noreturn]] void throw_petsc(int code, const std::source_location &where);
-[[noreturn]] void throw_ceed(int code, const std::source_location &where);
+[[noreturn]] void throw_petsc(int code, const SourcePlace &where);
+[[noreturn]] void throw_ceed(int code, const SourcePlace &where);
 
 /// Throws Error if a PETSc call failed: `petsc_check(VecSet(x, 0.));`
-inline void petsc_check(PetscErrorCode code, const std::source_location &where = std::source_location::current()) {
+inline void petsc_check(PetscErrorCode code, const SourcePlace &where = SourcePlace::here()) {
   if (code) [[unlikely]]
     throw_petsc(static_cast<int>(code), where);
 }
 
 /// Throws Error if a CEED call failed: `ceed_check(CeedVectorSetValue(x, 0.));`
-inline void ceed_check(int code, const std::source_location &where = std::source_location::current()) {
+inline void ceed_check(int code, const SourcePlace &where = SourcePlace::here()) {
   if (code) [[unlikely]]
     throw_ceed(code, where);
 }
 
 /// Reports an exception's message to PETSc and returns a PETSc error code; for guard.
-PetscErrorCode raise_in_petsc(const char *message, const std::source_location &where);
+PetscErrorCode raise_in_petsc(const char *message, const SourcePlace &where);
 
 /// Runs `body` where PETSc called us back; no exception passes through PETSc's frames.
 template <class Body>
-PetscErrorCode guard(Body &&body, const std::source_location &where = std::source_location::current()) {
+PetscErrorCode guard(Body &&body, const SourcePlace &where = SourcePlace::here()) {
   try {
     body();
     return static_cast<PetscErrorCode>(0);
