@@ -101,7 +101,7 @@ def sh_quoted(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", required=True, type=pathlib.Path, help="build folder, with bin/ and lib/")
-    parser.add_argument("--timeout", type=float, default=240, help="seconds for one block")
+    parser.add_argument("--timeout", type=float, default=600, help="seconds for one block")
     args = parser.parse_args()
     elsewhere = commands_elsewhere()
     unseen = set(elsewhere)
