@@ -13,7 +13,8 @@ MpmRun::MpmRun(Setup &setup)
     : setup_(setup),
       swarm_(setup.comm),
       operators_(*setup.mesh, setup.materials),
-      solver_(*setup.mesh, operators_, *setup.boundary, setup.options) {
+      solver_(*setup.mesh, operators_, *setup.boundary, setup.options),
+      on_mesh_(setup) {
   petsc_check(DMCreateGlobalVector(setup.mesh->dm, delta_u_.put()));
   petsc_check(DMCreateLocalVector(setup.mesh->dm, local_.put()));
   petsc_check(VecZeroEntries(delta_u_));
@@ -30,6 +31,7 @@ MpmRun::MpmRun(Setup &setup)
     solver_.set_residual_scale(restored.scalars.at("residual_scale"));
     last_step = restored.step;
     if (series_) series_->resume(last_step);
+    on_mesh_.resume(last_step);
   }
   probes_.emplace(*setup.mesh, *setup.locator, swarm_, setup.probe_places);
   record_.regions.resize(setup.options.regions.size());
@@ -112,7 +114,7 @@ void MpmRun::update_points() {
       MPI_Allreduce(MPI_IN_PLACE, mms_errors_.data(), 2, MPI_DOUBLE, MPI_SUM, setup_.comm);
       for (double &error : mms_errors_) error = std::sqrt(error);
     }
-    if (series_) diagnostics_ = operators_.point_diagnostics(ceed_delta_u_);
+    if (series_ || on_mesh_.wanted()) diagnostics_ = operators_.point_diagnostics(ceed_delta_u_);
     operators_.update_points(ceed_delta_u_, clock.dt(), swarm_);
   }
   record_.dt = clock.dt();
@@ -182,6 +184,13 @@ void MpmRun::monitor_and_output() {
                                      {"von_mises_stress", 1, von_mises},
                                      {"strain_energy_density", 1, energy}};
     series_->write(step, setup_.clock.time(), swarm_, extra);
+  }
+  if (on_mesh_.due(step, last)) {
+    const PetscScalar *delta_u;
+    petsc_check(VecGetArrayRead(local_, &delta_u));
+    on_mesh_.write(step, setup_.clock.time(), last, operators_, swarm_, diagnostics_,
+                   {delta_u, static_cast<std::size_t>(setup_.mesh->local_size)});
+    petsc_check(VecRestoreArrayRead(local_, &delta_u));
   }
   if (!setup_.checkpoint.file.empty() && step > 0 && (last || step % setup_.checkpoint.interval == 0)) {
     write_checkpoint(setup_.comm, setup_.checkpoint.file, *setup_.grid, state());

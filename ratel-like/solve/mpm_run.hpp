@@ -9,6 +9,7 @@
 
 #include "operators/mpm_operators.hpp"
 #include "output/points_writer.hpp"
+#include "solve/points_on_mesh.hpp"
 #include "solve/setup.hpp"
 #include "solve/static_solver.hpp"
 #include "swarm/epoch.hpp"
@@ -53,6 +54,7 @@ class MpmRun {
   std::optional<PointEpoch> epoch_;
   std::optional<PointProbes> probes_;
   std::optional<PointsWriter> series_;
+  PointsOnMesh on_mesh_;
   bool located_ = false;  ///< cell and ξ of every point are those of its x
   VecHandle delta_u_, local_;
   CeedVectorHandle ceed_delta_u_;

@@ -56,7 +56,7 @@ OutputOptions OutputOptions::read(MPI_Comm comm) {
   OptionGroup group(comm, "", "Output");
   output.swarm = group.string("ts_monitor_swarm", "prefix of HDF5 and XDMF files of the points after steps (mpm)", "");
   output.diagnostics = group.string("ts_monitor_diagnostic_quantities",
-                                    "prefix of VTU files of displacement and stress after steps (fem)", "");
+                                    "prefix of VTU files of displacement and stress on the mesh after steps", "");
   output.view = group.string("view_diagnostic_quantities", "the same at the end of the run only", "");
   output.interval = group.integer("output_interval", "steps between these outputs", 1, Range::at_least(1));
   output.quiet = group.boolean("quiet", "do not print a line for each step", false);

@@ -25,7 +25,7 @@ namespace hg {
 /// Which files a run writes for viewers, and how much it says.
 struct OutputOptions {
   std::string swarm;        ///< -ts_monitor_swarm <prefix>: points after steps (HDF5 and XDMF)
-  std::string diagnostics;  ///< -ts_monitor_diagnostic_quantities <prefix>: mesh after steps (VTU), FEM
+  std::string diagnostics;  ///< -ts_monitor_diagnostic_quantities <prefix>: mesh after steps (VTU)
   std::string view;         ///< -view_diagnostic_quantities <prefix>: the same, at the end only
   PetscInt interval = 1;    ///< -output_interval: steps between outputs
   bool quiet = false;       ///< -quiet: no line for each step

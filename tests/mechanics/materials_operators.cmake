@@ -5,6 +5,7 @@ target_sources(materials_qfunctions_test PRIVATE qfunctions_as_c.c)
 hg_mechanics_test(operators_solid_test RANKS 1 2 3)
 hg_mechanics_test(operators_projection_test RANKS 1 2 3)
 hg_mechanics_test(verification_patch_test RANKS 1 2 3)
+hg_mechanics_test(output_points_on_mesh_test RANKS 1 2 3)
 
 # Verification by the program
 if(TARGET honeyguide)

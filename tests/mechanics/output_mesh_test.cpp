@@ -1,44 +1,12 @@
 // The mesh in VTU files: decoded, the pieces make up the cube and carry the fields.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "output/mesh_writer.hpp"
 #include "output_files.hpp"
-#include "xml.hpp"
+#include "vtu.hpp"
 
 namespace hg::test {
 namespace {
-
-std::vector<unsigned char> decode(const std::string &text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<unsigned char> out;
-  unsigned bits = 0, have = 0;
-  for (const char c : text) {
-    if (std::isspace(static_cast<unsigned char>(c)) || c == '=') continue;
-    const std::size_t d = digits.find(c);
-    if (d == std::string::npos) fail("not base64: %c", c);
-    bits = bits << 6 | static_cast<unsigned>(d);
-    have += 6;
-    if (have >= 8) {
-      have -= 8;
-      out.push_back(static_cast<unsigned char>(bits >> have & 255));
-    }
-  }
-  return out;
-}
-
-template <class T>
-std::vector<T> values(const Xml &array) {
-  EXPECT_EQ(array.at("format"), "binary");
-  const std::vector<unsigned char> bytes = decode(array.text);
-  std::uint64_t length;
-  std::memcpy(&length, bytes.data(), 8);
-  EXPECT_EQ(bytes.size(), length + 8);
-  std::vector<T> v(length / sizeof(T));
-  std::memcpy(v.data(), bytes.data() + 8, length);
-  return v;
-}
 
 double hex_volume(const std::array<std::array<double, 3>, 8> &c) {  // VTK order, 2-point Gauss
   const double s[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
