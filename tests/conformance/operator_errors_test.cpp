@@ -35,7 +35,7 @@ class OperatorErrorsTest : public BackendTest {
   void set_v() { ok(set("v", rstr, basis, CEED_VECTOR_ACTIVE)); }
   void set_all() { set_u(), set_w(), set_v(); }
   /// The operator, all its fields set, still does its work.
-  void expect_works(std::source_location where = std::source_location::current()) {
+  void expect_works(SourceLocation where = SourceLocation::current()) {
     const Values ones(mesh.num_nodes, 1);
     const Values got = {dot(ones, apply_to(ceed, op, ones))}, want = {6};
     expect_close(got, want, tolerance(100), "integral of the operator that was misused", 0, where);

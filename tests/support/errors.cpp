@@ -46,14 +46,14 @@ void forget_reports() {
   count = 0;
 }
 
-void ok(int code, std::source_location where) {
+void ok(int code, SourceLocation where) {
   if (code == CEED_ERROR_SUCCESS) return;
   throw std::runtime_error(std::string(where.file_name()) + ":" + std::to_string(where.line()) + ": code " +
                            std::to_string(code) + " from " + report.function + "(): " + report.message);
 }
 
-void expect_error(int got, int want, std::initializer_list<std::string_view> fragments, std::source_location where) {
-  const auto line = static_cast<int>(where.line());
+void expect_error(int got, int want, std::initializer_list<std::string_view> fragments, SourceLocation where) {
+  const auto line = where.line();
   if (got != want) {
     ADD_FAILURE_AT(where.file_name(), line)
         << "returned code " << got << ", expected " << want << "; last message: " << report.message;

@@ -5,9 +5,10 @@
 #include <ceed.h>
 
 #include <initializer_list>
-#include <source_location>
 #include <string>
 #include <string_view>
+
+#include "source_location.hpp"
 
 namespace hg::test {
 
@@ -26,11 +27,11 @@ int num_reports();
 void forget_reports();
 
 /// Throws, with what was reported, unless `code` is 0: the test fails there and ends.
-void ok(int code, std::source_location where = std::source_location::current());
+void ok(int code, SourceLocation where = SourceLocation::current());
 
 /// Expects that a call failed with the code `want` and that its message holds all fragments.
 void expect_error(int got, int want, std::initializer_list<std::string_view> fragments,
-                  std::source_location where = std::source_location::current());
+                  SourceLocation where = SourceLocation::current());
 
 /// Opens a backend whose errors are recorded. The process' own handler (for errors before there is a Ceed) is set to
 /// return.

@@ -71,8 +71,8 @@ CeedScalar dot(std::span<const CeedScalar> a, std::span<const CeedScalar> b) {
 }
 
 void expect_close(std::span<const CeedScalar> got, std::span<const CeedScalar> want, CeedScalar tol,
-                  std::string_view what, CeedScalar scale, std::source_location where) {
-  const auto line = static_cast<int>(where.line());
+                  std::string_view what, CeedScalar scale, SourceLocation where) {
+  const auto line = where.line();
   if (got.size() != want.size()) {
     ADD_FAILURE_AT(where.file_name(), line) << what << ": " << got.size() << " values, expected " << want.size();
     return;
@@ -92,11 +92,11 @@ void expect_close(std::span<const CeedScalar> got, std::span<const CeedScalar> w
 
 void expect_adjoint(const std::function<Values(const Values &)> &action,
                     const std::function<Values(const Values &)> &transpose, CeedSize num_in, CeedSize num_out,
-                    Random &random, CeedScalar tol, std::string_view what, std::source_location where) {
+                    Random &random, CeedScalar tol, std::string_view what, SourceLocation where) {
   const Values x = random.reals(num_in), y = random.reals(num_out);
   const Values ax = action(x), aty = transpose(y);
   if (ax.size() != y.size() || aty.size() != x.size()) {
-    ADD_FAILURE_AT(where.file_name(), static_cast<int>(where.line())) << what << ": sizes do not fit";
+    ADD_FAILURE_AT(where.file_name(), where.line()) << what << ": sizes do not fit";
     return;
   }
   const CeedScalar left[] = {dot(y, ax)}, right[] = {dot(aty, x)};
@@ -108,7 +108,7 @@ void expect_adjoint(const std::function<Values(const Values &)> &action,
 }
 
 void expect_linear(const std::function<Values(const Values &)> &action, CeedSize num_in, Random &random, CeedScalar tol,
-                   std::string_view what, std::source_location where) {
+                   std::string_view what, SourceLocation where) {
   const Values x = random.reals(num_in), y = random.reals(num_in);
   const CeedScalar a = random.real(), b = random.real();
   Values z(x.size());
@@ -120,7 +120,7 @@ void expect_linear(const std::function<Values(const Values &)> &action, CeedSize
 }
 
 void expect_like_reference(Ceed ceed, const std::function<Values(Ceed)> &run, CeedScalar tol, std::string_view what,
-                           std::source_location where) {
+                           SourceLocation where) {
   const CeedHandle reference(open(reference_resource));
   const Values want = run(reference), got = run(ceed);
   expect_close(got, want, tol, what, 0, where);

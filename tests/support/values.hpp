@@ -3,13 +3,13 @@
 #pragma once
 
 #include <functional>
-#include <source_location>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "handles.hpp"
 #include "random.hpp"
+#include "source_location.hpp"
 
 namespace hg::test {
 
@@ -35,21 +35,21 @@ CeedScalar dot(std::span<const CeedScalar> a, std::span<const CeedScalar> b);
 /// Expects the same lengths and max |got - want| <= tol * max(|want|, scale). NaN never passes.
 void expect_close(std::span<const CeedScalar> got, std::span<const CeedScalar> want, CeedScalar tol,
                   std::string_view what, CeedScalar scale = 0,
-                  std::source_location where = std::source_location::current());
+                  SourceLocation where = SourceLocation::current());
 
 /// Expects <y, A x> = <A^T y, x> for random x (num_in) and y (num_out).
 void expect_adjoint(const std::function<Values(const Values &)> &action,
                     const std::function<Values(const Values &)> &transpose, CeedSize num_in, CeedSize num_out,
                     Random &random, CeedScalar tol, std::string_view what,
-                    std::source_location where = std::source_location::current());
+                    SourceLocation where = SourceLocation::current());
 
 /// Expects A(a x + b y) = a A x + b A y for random x and y.
 void expect_linear(const std::function<Values(const Values &)> &action, CeedSize num_in, Random &random, CeedScalar tol,
-                   std::string_view what, std::source_location where = std::source_location::current());
+                   std::string_view what, SourceLocation where = SourceLocation::current());
 
 /// Expects that `run` gives the same values on `ceed` as on the reference backend.
 void expect_like_reference(Ceed ceed, const std::function<Values(Ceed)> &run, CeedScalar tol, std::string_view what,
-                           std::source_location where = std::source_location::current());
+                           SourceLocation where = SourceLocation::current());
 
 /// The oracle that other backends are compared with.
 inline constexpr const char *reference_resource = "/cpu/self/ref/serial";
