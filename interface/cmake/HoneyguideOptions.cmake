@@ -17,6 +17,7 @@ set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 # that a program can be run with another library of this interface.
 file(RELATIVE_PATH hg_bin_to_lib "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/${hg_bin_to_lib}")
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)  # a PETSc of the user's own is found where it was linked
 add_link_options(LINKER:--enable-new-dtags)
 
 # The version of the interface, which is also the version of the package, is said once: in the header.
