@@ -101,7 +101,8 @@ void JacobianMat::pattern() {
   petsc_check(MatSetPreallocationCOO(mat_, static_cast<PetscCount>(i.size()), i.data(), j.data()));
 }
 
-void JacobianMat::update() {
+void JacobianMat::update(double damping) {
+  shift_ = 0;
   if (type_ == Type::aij) {
     ceed_check(CeedOperatorLinearAssemble(op_, entries_));
     CeedSize count;
@@ -116,6 +117,21 @@ void JacobianMat::update() {
   }
   petsc_check(MatAssemblyBegin(mat_, MAT_FINAL_ASSEMBLY));
   petsc_check(MatAssemblyEnd(mat_, MAT_FINAL_ASSEMBLY));
+  if (damping > 0) {
+    VecHandle d;
+    PetscReal sum;
+    PetscInt size;
+    petsc_check(MatCreateVecs(mat_, nullptr, d.put()));
+    petsc_check(MatGetDiagonal(mat_, d));
+    petsc_check(VecNorm(d, NORM_1, &sum));
+    petsc_check(VecGetSize(d, &size));
+    const double shift = damping * sum / static_cast<double>(size);
+    if (type_ == Type::aij) {
+      petsc_check(MatShift(mat_, shift));
+    } else {
+      shift_ = shift;
+    }
+  }
   petsc_check(MatViewFromOptions(mat_, nullptr, "-jacobian_view"));
 }
 
@@ -128,6 +144,7 @@ void JacobianMat::multiply(Vec x, Vec y) {
   }
   petsc_check(VecZeroEntries(y));
   petsc_check(DMLocalToGlobal(mesh_.dm, local_out_, ADD_VALUES, y));
+  if (shift_ != 0) petsc_check(VecAXPY(y, shift_, x));
   if (inactive_.empty()) return;
   const PetscScalar *from;
   PetscScalar *to;
@@ -145,6 +162,7 @@ void JacobianMat::diagonal(Vec d) {
   }
   petsc_check(VecZeroEntries(d));
   petsc_check(DMLocalToGlobal(mesh_.dm, local_out_, ADD_VALUES, d));
+  if (shift_ != 0) petsc_check(VecShift(d, shift_));
   if (inactive_.empty()) return;
   PetscScalar *to;
   petsc_check(VecGetArray(d, &to));

@@ -30,8 +30,9 @@ class JacobianMat {
   /// `inactive` holds the rows of the identity, counted from this rank's first row, ascending. Collective.
   void set_operator(CeedOperator op, std::vector<PetscInt> inactive);
 
-  /// Brings the matrix up to date with the data of the operator. Collective.
-  void update();
+  /// Brings the matrix up to date with the data of the operator, plus `damping` times the mean of its diagonal's size
+  /// on the diagonal. Collective.
+  void update(double damping = 0);
 
   /// y = J x, on global vectors.
   void multiply(Vec x, Vec y);
@@ -49,6 +50,7 @@ class JacobianMat {
   MatHandle mat_;
   CeedOperator op_ = nullptr;
   PetscInt num_rows_ = 0, first_row_ = 0;  ///< of this rank
+  double shift_ = 0;                       ///< added to the diagonal
   std::vector<PetscInt> inactive_, global_index_;
   VecHandle local_in_, local_out_;
   CeedVectorHandle ceed_in_, ceed_out_, entries_;

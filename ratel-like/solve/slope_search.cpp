@@ -1,5 +1,6 @@
 #include "solve/slope_search.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "options/error.hpp"
@@ -9,7 +10,7 @@ namespace hg {
 namespace {
 
 constexpr double full_step_slope = 0.8, wanted_slope = 0.5;
-constexpr int max_evaluations = 12, max_halvings = 40;
+constexpr int max_evaluations = 12, max_trials = 50;
 
 struct Search {
   SNES snes;
@@ -40,22 +41,17 @@ PetscErrorCode apply(SNESLineSearch search, void *) {
     const double start = -dot;
 
     // Brackets the root: φ'(low) < 0, and φ'(high) > 0 or high cannot be evaluated.
-    double low = 0, low_slope = start, high = -1, high_slope = 0, lambda = 1, value = 0;
-    double best = 0, best_slope = std::abs(start);
-    bool high_known = false, evaluated = false;
-    int halvings = 0;
-    for (int evaluations = 0; evaluations < max_evaluations && halvings < max_halvings;) {
+    double low = 0, low_slope = start, high = 1, high_slope = 0, lambda = 1, value = 0;
+    bool high_known = false, found = false;
+    int evaluations = 0;
+    for (int trials = 0; trials < max_trials && !found && !(evaluations >= max_evaluations && low > 0); ++trials) {
       if (s.slope(lambda, value)) {
         ++evaluations;
-        evaluated = true;
-        if (std::abs(value) < best_slope || best == 0) {
-          best = lambda;
-          best_slope = std::abs(value);
-        }
-        if (std::abs(value) <= (lambda == 1 ? full_step_slope : wanted_slope) * std::abs(start)) break;
+        // Past the full step nothing is known; downhill there is good enough.
+        found =
+            std::abs(value) <= (lambda == 1 ? full_step_slope : wanted_slope) * -start || (lambda == 1 && value < 0);
+        if (found) break;
         if (value < 0) {
-          // Still downhill.
-          if (lambda == 1) break;
           if (high_known) high_slope /= 2;
           low = lambda;
           low_slope = value;
@@ -66,19 +62,21 @@ PetscErrorCode apply(SNESLineSearch search, void *) {
           high_known = true;
         }
       } else {
-        ++halvings;
         high = lambda;
         high_known = false;
       }
-      // Without a slope at the high end: half way. With one: where the chord is zero.
-      lambda = high_known ? low + (high - low) * low_slope / (low_slope - high_slope) : (low + high) / 2;
+      // Half way without a slope at the high end; with one, where the chord is zero, but not too near to either end:
+      // next to an inverted element the slope is a wall.
+      const double chord = high_known ? low_slope / (low_slope - high_slope) : 0.5;
+      lambda = low + (high - low) * std::clamp(chord, 0.1, 0.9);
     }
-    if (!evaluated) {
-      petsc_check(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_NANORINF));
-      return;
-    }
-    if (best != lambda || !std::isfinite(value)) {
-      lambda = best;
+    if (!found) {
+      if (low == 0) {
+        petsc_check(SNESLineSearchSetReason(search, SNES_LINESEARCH_FAILED_REDUCT));
+        return;
+      }
+      // Downhill all the way to here.
+      lambda = low;
       s.slope(lambda, value);
     }
     petsc_check(VecCopy(s.trial, s.u));

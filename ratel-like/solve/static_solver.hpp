@@ -34,10 +34,10 @@ struct Step {
 /// One SNES for the whole run (options -snes_*, -ksp_*, -pc_*, -mat_type). Defaults: relative tolerance 1e-8; shell
 /// matrix with CG and Jacobi to 1e-6; aij with a direct solver.
 ///
-/// The step is first solved with the line search of slope_search.hpp, which lets the norm of the residual rise where a
-/// Newton that converges needs it; if that fails, from the same guess by backtracking on the norm, where a trial step
-/// that would invert an element is halved until it does not. An option -snes_linesearch_type or -snes_type takes the
-/// place of both.
+/// A step is first solved by Newton with the line search of slope_search.hpp. If that fails, it starts again from the
+/// same guess with a damped Jacobian, J + α d I with d its mean diagonal: α grows when the residual grew, else
+/// it falls. The damping holds nodes that hardly any material supports, where J is nearly singular;
+/// it changes the way, not the solution. An option -snes_linesearch_type or -snes_type takes the place of both.
 class StaticSolver {
  public:
   /// Mesh with its constraints, operators and boundary conditions outlive the solver. Collective.
@@ -87,12 +87,16 @@ class StaticSolver {
   Tractions tractions_;
   double final_time_ = 1;
   double scale_ = 0;
+  double damping_ = 0;           ///< of the next Jacobian
+  bool first_jacobian_ = true;   ///< of a solve
+  double last_norm_ = 0;         ///< of the residual at the Jacobian before
   bool keep_tolerance_ = false;  ///< the user gave -snes_atol
   std::unique_ptr<JacobianMat> jacobian_;
   std::vector<PetscInt> inactive_;
   /// Ways to solve a step, tried in turn from the same guess.
   struct Attempt {
-    const char *line_search;  ///< nullptr: as the options say
+    bool slope_search;  ///< else the line search of the options
+    double damping;     ///< of the first Jacobian, in units of its mean diagonal
     PetscInt max_iterations;
   };
   std::vector<Attempt> attempts_;

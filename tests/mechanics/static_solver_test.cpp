@@ -213,6 +213,32 @@ TEST(StaticSolver, JacobianMatchesFiniteDifferencesOfItsResidual) {
   EXPECT_NEAR(std::log10(remainder[0] / remainder[1]), 2, 0.05);
 }
 
+TEST(StaticSolver, DampingAddsItsShareOfTheMeanDiagonal) {
+  ScopedOptions options(twist);
+  for (const char *type : {"aij", "shell"}) {
+    ScopedOptions matrix{{"-mat_type", type}};
+    Problem problem("elasticity-neo-hookean-initial", "2,2,2", 1);
+    ASSERT_TRUE(problem.solve(0.5).converged);
+    JacobianMat &jacobian = problem.solver->matrix();
+    VecHandle x, plain, damped, diagonal;
+    for (VecHandle *v : {&x, &plain, &damped, &diagonal}) petsc_check(VecDuplicate(problem.u, v->put()));
+    petsc_check(VecSet(x, 1.));
+    jacobian.update();
+    petsc_check(MatMult(jacobian.mat(), x, plain));
+    petsc_check(MatGetDiagonal(jacobian.mat(), diagonal));
+    jacobian.update(0.1);
+    petsc_check(MatMult(jacobian.mat(), x, damped));
+    PetscReal sum, largest;
+    PetscInt size;
+    petsc_check(VecNorm(diagonal, NORM_1, &sum));
+    petsc_check(VecGetSize(x, &size));
+    petsc_check(VecAXPY(damped, -1., plain));
+    petsc_check(VecShift(damped, -0.1 * sum / static_cast<double>(size)));
+    petsc_check(VecNorm(damped, NORM_INFINITY, &largest));
+    EXPECT_LT(largest, 1e-12 * sum) << type;
+  }
+}
+
 TEST(StaticSolver, EmptyCellsLeaveTheSystemSolvable) {
   for (const char *type : {"aij", "shell"}) {
     ScopedOptions options{{"-bc_clamp", "6"},
