@@ -33,9 +33,14 @@ hg::Ref<CeedOperator_private> create_single(Ceed ceed, CeedQFunction qf, bool is
   return op;
 }
 
-void require_composite(const CeedOperator_private &op, const char *function) {
-  hg::require(op.is_composite, CEED_ERROR_MINOR, [&] {
-    return hg::text("%s: CeedOperator '%s' is not composite", function, op.shown_name());
+void require_composite(const CeedOperator_private &op) {
+  hg::require(op.is_composite, CEED_ERROR_MINOR,
+              [&] { return hg::text("CeedOperator '%s' is not composite", op.shown_name()); });
+}
+
+void require_single(const CeedOperator_private &op) {
+  hg::require(!op.is_composite, CEED_ERROR_MINOR, [&] {
+    return hg::text("CeedOperator '%s' is composite; ask its sub-operators", op.shown_name());
   });
 }
 
@@ -121,7 +126,7 @@ int CeedOperatorDestroy(CeedOperator *op) {
 
 int CeedOperatorCompositeAddSub(CeedOperator composite_op, CeedOperator sub_op) {
   return hg::guard(hg::ceed_of(composite_op), [&] {
-    require_composite(hg::deref(composite_op, "composite CeedOperator"), __func__);
+    require_composite(hg::deref(composite_op, "composite CeedOperator"));
     hg::deref(sub_op, "sub-operator");
     hg::require(!composite_op->is_immutable, CEED_ERROR_MAJOR, [&] {
       return hg::text("CeedOperator '%s' takes no more sub-operators after it has been used",
@@ -137,21 +142,21 @@ int CeedOperatorCompositeAddSub(CeedOperator composite_op, CeedOperator sub_op) 
 
 int CeedOperatorCompositeGetNumSub(CeedOperator op, CeedInt *num_suboperators) {
   return hg::guard(hg::ceed_of(op), [&] {
-    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    require_composite(hg::deref(op, "CeedOperator"));
     *num_suboperators = static_cast<CeedInt>(op->subs.size());
   });
 }
 
 int CeedOperatorCompositeGetSubList(CeedOperator op, CeedOperator **sub_operators) {
   return hg::guard(hg::ceed_of(op), [&] {
-    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    require_composite(hg::deref(op, "CeedOperator"));
     *sub_operators = op->sub_list.data();
   });
 }
 
 int CeedOperatorCompositeGetSubByName(CeedOperator op, const char *op_name, CeedOperator *sub_op) {
   return hg::guard(hg::ceed_of(op), [&] {
-    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    require_composite(hg::deref(op, "CeedOperator"));
     *sub_op = nullptr;
     for (const CeedOperator sub : op->sub_list) {
       if (sub->name == op_name) {
@@ -164,14 +169,14 @@ int CeedOperatorCompositeGetSubByName(CeedOperator op, const char *op_name, Ceed
 
 int CeedOperatorCompositeSetSequential(CeedOperator op, bool is_sequential) {
   return hg::guard(hg::ceed_of(op), [&] {
-    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    require_composite(hg::deref(op, "CeedOperator"));
     op->is_sequential = is_sequential;
   });
 }
 
 int CeedOperatorCompositeIsSequential(CeedOperator op, bool *is_sequential) {
   return hg::guard(hg::ceed_of(op), [&] {
-    require_composite(hg::deref(op, "CeedOperator"), __func__);
+    require_composite(hg::deref(op, "CeedOperator"));
     *is_sequential = op->is_sequential;
   });
 }
@@ -232,27 +237,21 @@ int CeedOperatorSetData(CeedOperator op, void *data) {
 
 int CeedOperatorGetNumElements(CeedOperator op, CeedInt *num_elem) {
   return hg::guard(hg::ceed_of(op), [&] {
-    hg::require(!hg::deref(op, "CeedOperator").is_composite, CEED_ERROR_MINOR, [&] {
-      return hg::text("%s: CeedOperator '%s' is composite; ask its sub-operators", __func__, op->shown_name());
-    });
+    require_single(hg::deref(op, "CeedOperator"));
     *num_elem = std::max(op->num_elem, 0);
   });
 }
 
 int CeedOperatorGetNumQuadraturePoints(CeedOperator op, CeedInt *num_qpts) {
   return hg::guard(hg::ceed_of(op), [&] {
-    hg::require(!hg::deref(op, "CeedOperator").is_composite, CEED_ERROR_MINOR, [&] {
-      return hg::text("%s: CeedOperator '%s' is composite; ask its sub-operators", __func__, op->shown_name());
-    });
+    require_single(hg::deref(op, "CeedOperator"));
     *num_qpts = std::max(op->num_qpts, 0);
   });
 }
 
 int CeedOperatorGetQFunction(CeedOperator op, CeedQFunction *qf) {
   return hg::guard(hg::ceed_of(op), [&] {
-    hg::require(!hg::deref(op, "CeedOperator").is_composite, CEED_ERROR_MINOR, [&] {
-      return hg::text("%s: CeedOperator '%s' is composite; ask its sub-operators", __func__, op->shown_name());
-    });
+    require_single(hg::deref(op, "CeedOperator"));
     *qf = hg::Ref<CeedQFunction_private>(op->qf).release();
   });
 }
