@@ -138,6 +138,30 @@ CEED_EXTERN int CeedBasisEvaluateAtPoint(CeedBasis basis, const CeedScalar *x_re
                                          CeedScalar *grad);
 /// @}
 
+/// @name Dense algebra on the host
+/// Small row-major matrices. Arrays of a call do not overlap unless said otherwise.
+/// @{
+/// C = A B for A m by kk, B kk by n.
+CEED_EXTERN int CeedMatrixMatrixMultiply(Ceed ceed, const CeedScalar *mat_A, const CeedScalar *mat_B,
+                                         CeedScalar *mat_C, CeedInt m, CeedInt n, CeedInt kk);
+/// A = Q R for A m by n with m >= n, in place: R on and above the diagonal; below it, column k holds v_k from row k+1 on,
+/// and v_k is 1 in row k, 0 above. Q = H_0 ... H_(n-1) with H_k = I - tau_k v_k v_k^T; tau has n entries.
+CEED_EXTERN int CeedQRFactorization(Ceed ceed, CeedScalar *mat, CeedScalar *tau, CeedInt m, CeedInt n);
+/// A = Q A, or Q^T A for CEED_TRANSPOSE, with entry (i, j) of A (m by n) at mat_A[i*row + j*col] and Q the product of k
+/// reflectors in mat_Q (m by k) and tau as CeedQRFactorization() gives them.
+CEED_EXTERN int CeedHouseholderApplyQ(CeedScalar *mat_A, const CeedScalar *mat_Q, const CeedScalar *tau,
+                                      CeedTransposeMode t_mode, CeedInt m, CeedInt n, CeedInt k, CeedInt row,
+                                      CeedInt col);
+/// Moore-Penrose inverse, n by m, of an m by n matrix with m >= n and independent columns.
+CEED_EXTERN int CeedMatrixPseudoinverse(Ceed ceed, const CeedScalar *mat, CeedInt m, CeedInt n, CeedScalar *mat_pinv);
+/// A = V diag(lambda) V^T for A n by n, symmetric: overwrites it with V, whose columns are orthonormal. lambda ascends.
+CEED_EXTERN int CeedSymmetricSchurDecomposition(Ceed ceed, CeedScalar *mat, CeedScalar *lambda, CeedInt n);
+/// X^T A X = diag(lambda), X^T B X = I for A symmetric, B symmetric positive definite. Both stay as they are; lambda
+/// ascends.
+CEED_EXTERN int CeedSimultaneousDiagonalization(Ceed ceed, CeedScalar *mat_A, CeedScalar *mat_B, CeedScalar *x,
+                                                CeedScalar *lambda, CeedInt n);
+/// @}
+
 /// @name QFunctions and contexts
 /// @{
 CEED_EXTERN int CeedQFunctionRegister(const char *name, const char *source, CeedInt vec_length, CeedQFunctionUser f,
