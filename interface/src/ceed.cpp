@@ -189,6 +189,10 @@ int CeedIsDebug(Ceed, bool *is_debug) {
   return CEED_ERROR_SUCCESS;
 }
 
+int CeedGetBackendOps(Ceed ceed, const CeedBackendOps **ops) {
+  return hg::guard(ceed, [&] { *ops = &hg::deref(ceed, "Ceed").ops; });
+}
+
 int CeedGetData(Ceed ceed, void *data) {
   return hg::guard(ceed, [&] { *static_cast<void **>(data) = hg::deref(ceed, "Ceed").data; });
 }

@@ -1,83 +1,157 @@
-/// Plugin libraries: found, opened, checked.
+/// Plugin libraries: found, judged, opened, registered.
 #include <dlfcn.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
 #include <set>
 
 #include "ceed.hpp"
+#include "library_file.hpp"
 #include "registry.hpp"
 
 namespace hg {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 thread_local std::string load_error;
 
-/// Opens a plugin and registers it. Throws Error with a message that names the file.
-void load_plugin(const std::filesystem::path &path) {
-  // A plugin stays open for the whole process: its code may be referenced by any Ceed.
-  void *handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) {
-    throw Error(CEED_ERROR_MINOR, text("Plugin '%s' cannot be opened: %s", path.c_str(), dlerror()));
+/// One load at a time. Recursive, as the entry of a plugin may load another one.
+std::recursive_mutex &load_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+/// Opens a library. Its static constructors run here, and an exception of theirs goes through dlopen(), whose
+/// declaration promises that none does: it is called by a pointer that promises nothing. Such a library stays mapped,
+/// half made, so it is refused for good. The dynamic loader's lock stays with this thread then: a later dlopen() of
+/// another thread waits for ever.
+void *open_library(const fs::path &path) {
+  static std::set<fs::path> half_made;
+  std::string thrown;
+  if (half_made.count(path) != 0) throw Error(CEED_ERROR_MAJOR, "a static constructor of it threw before");
+  void *(*volatile opener)(const char *, int) = dlopen;
+  try {
+    void *handle = opener(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) throw Error(CEED_ERROR_MINOR, dlerror());
+    return handle;
+  } catch (const Error &) {
+    throw;
+  } catch (const std::exception &error) {
+    thrown = std::string("a static constructor of it threw: ") + error.what();
+  } catch (...) {
+    thrown = "a static constructor of it threw";
   }
-  const auto reject = [&](int code, const std::string &message) {
-    dlclose(handle);
-    throw Error(code, text("Plugin '%s' is refused: %s", path.c_str(), message.c_str()));
-  };
+  half_made.insert(path);
+  throw Error(CEED_ERROR_MAJOR, thrown);
+}
+
+/// Registers what an open library exports. Throws Error with the reason why it is refused.
+const CeedPlugin *register_library(void *handle) {
   const auto entry = reinterpret_cast<CeedPluginEntry>(dlsym(handle, "ceed_plugin_v1"));
-  if (entry == nullptr) reject(CEED_ERROR_INCOMPATIBLE, "it does not export the symbol ceed_plugin_v1");
+  require(entry != nullptr, CEED_ERROR_INCOMPATIBLE, "it does not export the symbol ceed_plugin_v1");
   try {
     const CeedPlugin *plugin = entry();
     require(plugin != nullptr, CEED_ERROR_INCOMPATIBLE, "ceed_plugin_v1() returned NULL");
     register_plugin(*plugin);
-  } catch (const Error &error) {
-    reject(error.code(), error.what());
+    return plugin;
+  } catch (const Error &) {
+    throw;
   } catch (const std::exception &error) {
-    reject(CEED_ERROR_MAJOR, std::string("it threw while loading: ") + error.what());
+    throw Error(CEED_ERROR_MAJOR, std::string("it threw while loading: ") + error.what());
   } catch (...) {
-    reject(CEED_ERROR_MAJOR, "it threw while loading");
+    throw Error(CEED_ERROR_MAJOR, "it threw while loading");
   }
 }
 
-std::vector<std::filesystem::path> search_path() {
-  std::vector<std::filesystem::path> directories;
+/// Opens a plugin and registers it. Throws Error with a message that names the file.
+void load_plugin(const fs::path &path) {
+  const std::lock_guard lock(load_mutex());
+  const auto refuse = [&](int code, const char *verdict, const char *reason) {
+    const std::string message = text("Plugin '%s' %s: %s", path.c_str(), verdict, reason);
+    record_plugin({path.string(), nullptr, message});
+    throw Error(code, message);
+  };
+  if (const std::string reason = why_not_loadable(path); !reason.empty()) {
+    refuse(CEED_ERROR_MINOR, "cannot be opened", reason.c_str());
+  }
+  // A plugin stays open for the whole process: its code may be referenced by any Ceed.
+  void *handle = nullptr;
+  try {
+    handle = open_library(fs::absolute(path));
+  } catch (const Error &error) {
+    refuse(error.code(), "cannot be opened", error.what());
+  }
+  int code = CEED_ERROR_SUCCESS;
+  std::string reason;
+  try {
+    record_plugin({path.string(), register_library(handle), ""});
+  } catch (const Error &error) {
+    code = error.code();
+    reason = error.what();
+  }
+  if (code == CEED_ERROR_SUCCESS) return;
+  dlclose(handle);  // not before an exception of a type of the plugin's own is gone
+  refuse(code, "is refused", reason.c_str());
+}
+
+/// Loads a plugin of the search path. One bad plugin must not take the others away: say so and go on.
+void load_or_complain(const fs::path &file, std::set<fs::path> &seen) {
+  std::error_code ignored;
+  if (!seen.insert(fs::weakly_canonical(file, ignored)).second) return;
+  try {
+    load_plugin(file);
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "ceed: %s\n", error.what());
+  }
+}
+
+void load_folder(const fs::path &folder, std::set<fs::path> &seen) {
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  for (const auto &file : fs::directory_iterator(folder, ignored)) {
+    if (file.path().extension() == ".so") files.push_back(file.path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const auto &file : files) load_or_complain(file, seen);
+}
+
+/// ceed-plugins/ beside the core library: as it was found, and where links lead.
+std::vector<fs::path> folders_beside_library() {
+  std::vector<fs::path> folders;
   Dl_info info{};
   if (dladdr(reinterpret_cast<void *>(&load_plugins_in_search_path), &info) != 0 && info.dli_fname != nullptr) {
-    directories.push_back(std::filesystem::path(info.dli_fname).parent_path() / "ceed-plugins");
+    const fs::path library = info.dli_fname;
+    std::error_code ignored;
+    folders.push_back(library.parent_path() / "ceed-plugins");
+    const fs::path real = fs::weakly_canonical(library, ignored).parent_path() / "ceed-plugins";
+    if (!ignored && real != folders.front()) folders.push_back(real);
   }
-  if (const char *variable = std::getenv("CEED_PLUGIN_PATH"); variable != nullptr) {
-    std::string_view rest = variable;
-    while (!rest.empty()) {
-      const auto colon = rest.find(':');
-      if (colon != 0) directories.emplace_back(rest.substr(0, colon));
-      rest = colon == std::string_view::npos ? std::string_view{} : rest.substr(colon + 1);
-    }
-  }
-  return directories;
+  return folders;
 }
 
 }  // namespace
 
 void load_plugins_in_search_path() {
-  std::set<std::filesystem::path> seen;
-  for (const auto &directory : search_path()) {
+  std::set<fs::path> seen;
+  for (const auto &folder : folders_beside_library()) load_folder(folder, seen);
+  const char *variable = std::getenv("CEED_PLUGIN_PATH");
+  std::string_view rest = variable != nullptr ? variable : "";
+  while (!rest.empty()) {
+    const auto colon = rest.find(':');
+    const fs::path entry = rest.substr(0, colon);
+    rest = colon == std::string_view::npos ? std::string_view{} : rest.substr(colon + 1);
     std::error_code ignored;
-    std::vector<std::filesystem::path> files;
-    for (const auto &file : std::filesystem::directory_iterator(directory, ignored)) {
-      if (file.path().extension() == ".so") files.push_back(file.path());
-    }
-    std::sort(files.begin(), files.end());
-    for (const auto &file : files) {
-      const auto canonical = std::filesystem::weakly_canonical(file, ignored);
-      if (!seen.insert(canonical).second) continue;
-      try {
-        load_plugin(file);
-      } catch (const Error &error) {
-        // One bad plugin must not take the others away; say so and go on.
-        std::fprintf(stderr, "ceed: %s\n", error.what());
-      }
+    if (entry.empty()) continue;
+    if (fs::is_directory(entry, ignored)) {
+      load_folder(entry, seen);
+    } else if (fs::exists(entry, ignored)) {
+      load_or_complain(entry, seen);
+    } else {
+      std::fprintf(stderr, "ceed: CEED_PLUGIN_PATH has '%s', which is neither a folder nor a plugin\n", entry.c_str());
     }
   }
 }

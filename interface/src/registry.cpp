@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <map>
+#include <list>
 #include <mutex>
 
 #include "ceed.hpp"
@@ -16,6 +16,7 @@ struct Registry {
   std::recursive_mutex mutex;
   bool is_loaded = false;
   std::vector<RegistryEntry> entries;
+  std::list<PluginRecord> plugins;  ///< only grows: CeedPluginGetList() gives out addresses of its strings
 };
 
 Registry &the_registry() {
@@ -89,6 +90,15 @@ void require_complete(const CeedBackendOps &ops, const CeedBackend &backend) {
   }
 }
 
+/// The records as they are now.
+std::vector<const PluginRecord *> recorded_plugins() {
+  Registry &registry = the_registry();
+  const std::lock_guard lock(registry.mutex);
+  std::vector<const PluginRecord *> records;
+  for (const auto &record : registry.plugins) records.push_back(&record);
+  return records;
+}
+
 std::string resource_list() {
   std::string list;
   for (const auto &entry : registry()) list += std::string("\n  ") + entry.resource;
@@ -102,10 +112,22 @@ std::vector<RegistryEntry> registry() {
   const std::lock_guard lock(registry.mutex);
   if (!registry.is_loaded) {
     registry.is_loaded = true;
-    for (const CeedPluginEntry entry : built_in_plugins()) register_plugin(*entry());
+    for (const CeedPluginEntry entry : built_in_plugins()) {
+      register_plugin(*entry());
+      record_plugin({"", entry(), ""});
+    }
     load_plugins_in_search_path();
   }
   return registry.entries;
+}
+
+void record_plugin(PluginRecord record) {
+  Registry &registry = the_registry();
+  const std::lock_guard lock(registry.mutex);
+  const bool is_known = std::any_of(registry.plugins.begin(), registry.plugins.end(), [&](const PluginRecord &known) {
+    return known.path == record.path && known.plugin == record.plugin && known.error == record.error;
+  });
+  if (!is_known) registry.plugins.push_back(std::move(record));
 }
 
 void register_plugin(const CeedPlugin &plugin) {
@@ -116,6 +138,10 @@ void register_plugin(const CeedPlugin &plugin) {
   require(plugin.size >= sizeof(CeedPlugin), CEED_ERROR_INCOMPATIBLE, [&] {
     return text("Plugin '%s' describes itself in %zu bytes; expected at least %zu", plugin.name, plugin.size,
                 sizeof(CeedPlugin));
+  });
+  require(plugin.name != nullptr, CEED_ERROR_INCOMPATIBLE, "a plugin has no name");
+  require(plugin.backends != nullptr || plugin.num_backends == 0, CEED_ERROR_INCOMPATIBLE, [&] {
+    return text("Plugin '%s' counts %zu backends and has a NULL list of them", plugin.name, plugin.num_backends);
   });
   Registry &registry = the_registry();
   const std::lock_guard lock(registry.mutex);
@@ -145,10 +171,17 @@ void register_plugin(const CeedPlugin &plugin) {
 
 int score_of(const CeedBackend &backend, std::string &reason) {
   if (backend.score == nullptr) return 1;
-  const char *why = nullptr;
-  const int score = backend.score(&why);
-  reason = why != nullptr ? why : "";
-  return score;
+  try {
+    const char *why = nullptr;
+    const int score = backend.score(&why);
+    reason = why != nullptr ? why : "";
+    return score;
+  } catch (const std::exception &error) {
+    reason = std::string("its score threw: ") + error.what();
+  } catch (...) {
+    reason = "its score threw";
+  }
+  return 0;
 }
 
 const CeedBackend &find_backend(std::string_view request) {
@@ -244,5 +277,19 @@ int CeedPluginRegister(const CeedPlugin *plugin) {
     hg::require(plugin != nullptr, CEED_ERROR_MINOR, "Plugin is NULL; expected a description");
     hg::registry();
     hg::register_plugin(*plugin);
+    hg::record_plugin({"", plugin, ""});
+  });
+}
+
+int CeedPluginGetList(size_t *num_plugins, CeedPluginInfo **plugins) {
+  return hg::guard(nullptr, [&] {
+    hg::require(num_plugins != nullptr && plugins != nullptr, CEED_ERROR_MINOR, "Address of the list of plugins is NULL");
+    hg::registry();
+    const auto records = hg::recorded_plugins();
+    auto *list = static_cast<CeedPluginInfo *>(std::calloc(std::max<std::size_t>(records.size(), 1), sizeof(CeedPluginInfo)));
+    if (list == nullptr) throw std::bad_alloc();
+    *plugins = list;
+    for (const auto &record : records) *list++ = {record->path.c_str(), record->plugin, record->error.c_str()};
+    *num_plugins = records.size();
   });
 }

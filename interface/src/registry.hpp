@@ -18,10 +18,19 @@ struct RegistryEntry {
   const char *plugin = nullptr;          ///< name of the plugin it came with
 };
 
+/// What became of a plugin.
+struct PluginRecord {
+  std::string path;                    ///< its file; "": part of the library or of the program
+  const CeedPlugin *plugin = nullptr;  ///< NULL: refused
+  std::string error;                   ///< why it was refused
+};
+
 /// All entries as they are now; loads the plugins on first use.
 std::vector<RegistryEntry> registry();
 /// Adds the backends of a plugin. Throws if its version or a name in it does not fit; then nothing is added.
 void register_plugin(const CeedPlugin &plugin);
+/// Keeps what became of a plugin, for the life of the process.
+void record_plugin(PluginRecord record);
 /// The backend for a request: those whose name begins with it, in whole components ("/cpu/self" is a beginning of
 /// "/cpu/self/ref/serial", "/cpu/self/re" is not); of these one with a positive score and the lowest priority. Names
 /// that only libCEED has lead to the nearest of ours. Throws CEED_ERROR_MAJOR with the list of resources where none
@@ -31,7 +40,7 @@ const CeedBackend &find_backend(std::string_view request);
 void print_resources(FILE *stream);
 /// The backend with this very name, own name only. Throws where there is none.
 const CeedBackend &backend_named(std::string_view resource);
-/// Score of the backend on this machine; `reason` says why it is 0.
+/// Score of the backend on this machine; `reason` says why it is 0. A score that throws is 0.
 int score_of(const CeedBackend &backend, std::string &reason);
 /// Tables of a backend: its ancestors' inits are applied in turn to `ceed`.
 void fill_tables(Ceed ceed, const CeedBackend &backend, const char *options);

@@ -1,9 +1,12 @@
 // Plugin libraries: good ones, refused ones, and what happens when a backend of one does not open.
 #include <ceed/plugin.h>
 #include <dlfcn.h>
+#include <elf.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -153,9 +156,24 @@ TEST(Plugin, WithoutADescriptionIsRefused) {
   expect_refused(plugin_path("bad_null"), CEED_ERROR_INCOMPATIBLE, {"NULL"});
 }
 
+TEST(Plugin, WithoutANameOrBackendsIsRefused) {
+  expect_refused(plugin_path("bad_nameless"), CEED_ERROR_INCOMPATIBLE, {"has no name"});
+  expect_refused(plugin_path("bad_empty"), CEED_ERROR_INCOMPATIBLE, {"empty-handed", "3 backends", "NULL"});
+}
+
 TEST(Plugin, ThatThrowsIsRefused) {
   expect_refused(plugin_path("bad_throw"), CEED_ERROR_MAJOR, {"the device library is broken"});
   expect_refused(plugin_path("bad_throw_odd"), CEED_ERROR_MAJOR, {"threw"});
+  expect_refused(plugin_path("bad_throw_own"), CEED_ERROR_MAJOR, {"an error of a type of the plugin's own"});
+}
+
+/// The library is mapped by then and cannot be made whole: it stays refused, and others still load.
+TEST(Plugin, WhoseConstructorThrowsIsRefused) {
+  expect_refused(plugin_path("bad_constructor"), CEED_ERROR_MAJOR, {"constructor", "no room for a table"});
+  expect_refused(plugin_path("bad_constructor"), CEED_ERROR_MAJOR, {"constructor", "before"});
+  EXPECT_FALSE(is_listed("/test/bad"));
+  load_once("delegate");
+  EXPECT_TRUE(is_listed("/test/delegate"));
 }
 
 /// All or nothing: its first backend has a new name, its second one a name that is taken.
@@ -164,11 +182,88 @@ TEST(Plugin, WithATakenNameIsRefused) {
   EXPECT_FALSE(is_listed("/test/new"));
 }
 
+/// A folder of its own for a test, removed with all that is in it.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (std::filesystem::temp_directory_path() / "honeyguide_plugins_XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp() failed");
+    folder_ = name;
+  }
+  Scratch(const Scratch &) = delete;
+  Scratch &operator=(const Scratch &) = delete;
+  ~Scratch() { std::filesystem::remove_all(folder_); }
+  const std::filesystem::path &folder() const { return folder_; }
+  std::filesystem::path operator/(const char *name) const { return folder_ / name; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+std::string contents(const std::filesystem::path &path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 TEST(Plugin, ThatIsNoLibraryIsRefused) {
-  const auto path = std::filesystem::temp_directory_path() / "not_a_library_of_honeyguide.so";
+  const Scratch scratch;
+  const auto path = scratch / "letter.so";
   std::ofstream(path) << "Dear loader, I am a letter.\n";
-  expect_refused(path.string(), CEED_ERROR_MINOR, {"cannot be opened"});
-  std::filesystem::remove(path);
+  expect_refused(path.string(), CEED_ERROR_MINOR, {"cannot be opened", "no ELF header"});
+  std::ofstream(path) << "";
+  expect_refused(path.string(), CEED_ERROR_MINOR, {"cannot be opened", "no ELF header"});
+  expect_refused(scratch.folder().string(), CEED_ERROR_MINOR, {"cannot be opened", "no regular file"});
+  expect_refused(HG_TEST_HOST, CEED_ERROR_MINOR, {"cannot be opened"});  // a program
+}
+
+/// However much of it is there, and without a signal from the dynamic loader.
+TEST(Plugin, ThatIsCutShortIsRefused) {
+  const Scratch scratch;
+  const auto path = scratch / "short.so";
+  const std::string whole = contents(plugin_path("delegate"));
+  ASSERT_GT(whole.size(), 4096u);
+  Elf64_Ehdr header;
+  std::memcpy(&header, whole.data(), sizeof header);
+  std::vector<std::size_t> sizes{EI_NIDENT, EI_NIDENT + 8, sizeof header, sizeof header + 40, header.e_phoff + 100};
+  std::size_t needed = 0;  // the last byte that is mapped
+  for (int i = 0; i < header.e_phnum; i++) {
+    Elf64_Phdr segment;
+    std::memcpy(&segment, whole.data() + header.e_phoff + i * sizeof segment, sizeof segment);
+    if (segment.p_type == PT_LOAD) needed = std::max<std::size_t>(needed, segment.p_offset + segment.p_filesz);
+  }
+  for (int i = 1; i <= 8; i++) sizes.push_back(needed * i / 8 - 1);
+  for (const std::size_t size : sizes) {
+    SCOPED_TRACE(size);
+    std::ofstream(path, std::ios::binary) << whole.substr(0, size);
+    expect_refused(path.string(), CEED_ERROR_MINOR, {"cannot be opened", "cut short"});
+  }
+}
+
+TEST(Plugin, OfAnotherArchitectureIsRefused) {
+  const Scratch scratch;
+  const std::string whole = contents(plugin_path("delegate"));
+  const auto with = [&](const char *name, auto &&change) {
+    std::string changed = whole;
+    Elf64_Ehdr header;
+    std::memcpy(&header, whole.data(), sizeof header);
+    change(header);
+    std::memcpy(changed.data(), &header, sizeof header);
+    const auto path = scratch / name;
+    std::ofstream(path, std::ios::binary) << changed;
+    return path.string();
+  };
+  Elf64_Ehdr own;
+  std::memcpy(&own, whole.data(), sizeof own);
+  const bool is_arm = own.e_machine == EM_AARCH64;
+  expect_refused(with("machine.so", [&](auto &h) { h.e_machine = is_arm ? EM_X86_64 : EM_AARCH64; }), CEED_ERROR_MINOR,
+                 {"wrong architecture", "it is for " + std::string(is_arm ? "x86-64" : "AArch64")});
+  expect_refused(with("odd.so", [](auto &h) { h.e_machine = 12345; }), CEED_ERROR_MINOR,
+                 {"wrong architecture", "ELF machine 12345"});
+  expect_refused(with("narrow.so", [](auto &h) { h.e_ident[EI_CLASS] = ELFCLASS32; }), CEED_ERROR_MINOR,
+                 {"wrong architecture", "32-bit"});
+  expect_refused(with("order.so", [](auto &h) { h.e_ident[EI_DATA] = h.e_ident[EI_DATA] == 1 ? 2 : 1; }),
+                 CEED_ERROR_MINOR, {"wrong architecture", "byte order"});
+  expect_refused(with("object.so", [](auto &h) { h.e_type = ET_REL; }), CEED_ERROR_MINOR, {"no shared library"});
 }
 
 TEST(Plugin, ThatIsNotThereIsRefused) {
@@ -190,6 +285,13 @@ TEST(Plugin, BackendWithScoreZeroIsNotForThisMachine) {
   EXPECT_HAS(message, "No suitable backend: /test/absent");
   EXPECT_HAS(message, "no such device in this machine");
   EXPECT_HAS(message, "Available backend resources:");
+}
+
+TEST(Plugin, BackendWhoseScoreThrowsIsNotForThisMachine) {
+  load_once("troubled");
+  EXPECT_HAS(init_message("/test/unsure"), "the driver is of another year");
+  EXPECT_HAS(init_message("/test/unsure oddly"), "threw");
+  const CeedHandle ceed(open("/test/choice"));  // the others of the plugin are as they were
 }
 
 /// Among equally long matches a backend that cannot run gives way to one that can.
@@ -226,23 +328,106 @@ TEST(Plugin, EmptyTablesAreRefused) {
   EXPECT_HAS(init_message("/test/empty"), "/test/empty");
 }
 
-/// Beside the library and in CEED_PLUGIN_PATH; a bad plugin among good ones is named and passed over.
-TEST(PluginDeathTest, AreFoundInTheSearchPath) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  const auto directory = std::filesystem::temp_directory_path() / ("honeyguide_plugins_" + std::to_string(::getpid()));
-  // In the child, which starts anew, the registry has not been asked for anything yet.
-  EXPECT_EXIT(
-      {
-        std::filesystem::create_directories(directory);
-        std::filesystem::copy_file(plugin_path("delegate"), directory / "good.so");
-        std::ofstream(directory / "broken.so") << "no library";
-        std::ofstream(directory / "notes.txt") << "no library either";
-        ::setenv("CEED_PLUGIN_PATH", ("/no/such/folder:" + directory.string()).c_str(), 1);
-        const bool is_found = is_listed("/test/delegate");
-        std::filesystem::remove_all(directory);
-        std::exit(is_found ? 7 : 8);
-      },
-      testing::ExitedWithCode(7), "broken\\.so");
+std::vector<CeedPluginInfo> plugin_list() {
+  std::size_t count = 0;
+  CeedPluginInfo *list = nullptr;
+  ok(CeedPluginGetList(&count, &list));
+  std::vector<CeedPluginInfo> result(list, list + count);
+  std::free(list);
+  return result;
+}
+
+TEST(Plugin, ListTellsWhatBecameOfEach) {
+  load_once("delegate");
+  EXPECT_NE(CeedPluginLoad(plugin_path("bad_version").c_str()), 0);
+  const auto plugins_met = plugin_list();
+  const auto find = [&](auto &&is_it) { return std::find_if(plugins_met.begin(), plugins_met.end(), is_it); };
+  const auto ref = find([](const auto &p) { return p.plugin != nullptr && p.plugin->name == std::string("ref"); });
+  ASSERT_NE(ref, plugins_met.end());
+  EXPECT_STREQ(ref->path, "");
+  EXPECT_STREQ(ref->error, "");
+  const auto good = find([](const auto &p) { return p.path == plugin_path("delegate") && p.plugin != nullptr; });
+  ASSERT_NE(good, plugins_met.end());
+  EXPECT_STREQ(good->plugin->backends[0].resource, "/test/delegate");
+  const auto bad = find([](const auto &p) { return p.path == plugin_path("bad_version"); });
+  ASSERT_NE(bad, plugins_met.end());
+  EXPECT_EQ(bad->plugin, nullptr);
+  EXPECT_HAS(std::string(bad->error), "from the future");
+  // The same refusal again adds nothing.
+  EXPECT_NE(CeedPluginLoad(plugin_path("bad_version").c_str()), 0);
+  EXPECT_EQ(plugin_list().size(), plugins_met.size());
+}
+
+/// The tables of a backend: its parent's, but for what it changed.
+TEST(Plugin, TablesCanBeRead) {
+  load_once("delegate");
+  const CeedHandle ceed(open("/test/delegate")), reference(open(reference_resource));
+  const CeedBackendOps *ops = nullptr, *parents = nullptr;
+  ok(CeedGetBackendOps(ceed, &ops));
+  ok(CeedGetBackendOps(reference, &parents));
+  EXPECT_EQ(ops->vector.create, parents->vector.create);
+  EXPECT_EQ(ops->basis.apply, parents->basis.apply);
+  EXPECT_NE(ops->op.apply_add, parents->op.apply_add);
+  EXPECT_EQ(ops->api_version, CEED_PLUGIN_API_VERSION);
+}
+
+/// What a program that opens `library` when it runs prints, with `plugin` loaded.
+std::string printed_by_host(const std::string &environment, const std::string &library, const std::string &plugin = "") {
+  const std::string command = environment + " '" HG_TEST_HOST "' '" + library + "' " + plugin + " 2>&1";
+  FILE *pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("popen() failed");
+  std::string text;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+  EXPECT_EQ(::pclose(pipe), 0) << text;
+  return text;
+}
+
+/// In folders and as a file of CEED_PLUGIN_PATH; bad plugins among good ones are named and passed over.
+TEST(Plugin, AreFoundInTheSearchPath) {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "folder");
+  std::filesystem::copy_file(plugin_path("delegate"), scratch / "folder/good.so");
+  std::filesystem::copy_file(plugin_path("bad_constructor"), scratch / "folder/constructor.so");
+  std::ofstream(scratch / "folder/broken.so") << "no library";
+  std::ofstream(scratch / "folder/notes.txt") << "no library either";
+  const std::string whole = contents(plugin_path("delegate")), folder = (scratch / "folder").string();
+  std::ofstream(scratch / "folder/short.so", std::ios::binary) << whole.substr(0, whole.size() / 2);
+  const std::string printed = printed_by_host("CEED_PLUGIN_PATH=/no/such/folder:" + folder + "::" + folder + "/:" +
+                                                  plugin_path("troubled") + ":" + plugin_path("bad_throw"),
+                                              HG_TEST_LIBRARY);
+  for (const char *good : {"/test/delegate", "/test/choice/present", reference_resource}) {
+    EXPECT_HAS(printed, "resource: " + std::string(good) + "\n");
+  }
+  for (const char *bad : {"/no/such/folder", "broken.so", "constructor.so", "short.so", "bad_throw.so"}) {
+    const auto first = printed.find(bad);
+    EXPECT_NE(first, std::string::npos) << bad << " in:\n" << printed;
+    EXPECT_EQ(printed.find(bad, first + 1), std::string::npos) << bad << " is named twice in:\n" << printed;
+  }
+  EXPECT_EQ(printed.find("good.so"), std::string::npos) << printed;
+  EXPECT_EQ(printed.find("notes.txt"), std::string::npos) << printed;
+}
+
+TEST(Plugin, IsFoundBesideTheLibrary) {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "ceed-plugins");
+  std::filesystem::copy_file(HG_TEST_LIBRARY, scratch / "libceed.so");
+  std::filesystem::copy_file(plugin_path("delegate"), scratch / "ceed-plugins/delegate.so");
+  EXPECT_HAS(printed_by_host("LD_LIBRARY_PATH=" + scratch.folder().string(), "libceed.so"), "resource: /test/delegate\n");
+  // Where a link leads, too.
+  std::filesystem::create_directory(scratch / "links");
+  std::filesystem::create_symlink(scratch / "libceed.so", scratch / "links/libceed.so");
+  EXPECT_HAS(printed_by_host("LD_LIBRARY_PATH=" + (scratch / "links").string(), "libceed.so"),
+             "resource: /test/delegate\n");
+}
+
+/// A plugin works with the library that is there, even where it was linked to another copy: bindings of other languages
+/// open the library by its path.
+TEST(Plugin, UsesTheLibraryThatIsThere) {
+  const Scratch scratch;
+  std::filesystem::copy_file(HG_TEST_LIBRARY, scratch / "libceed.so");
+  for (const std::string &library : {std::string(HG_TEST_LIBRARY), (scratch / "libceed.so").string()}) {
+    EXPECT_HAS(printed_by_host("", library, plugin_path("delegate")), "resource: /test/delegate\n");
+  }
 }
 
 TEST(Plugin, OfTheProgramItself) {

@@ -185,11 +185,27 @@ typedef const CeedPlugin *(*CeedPluginEntry)(void);
 
 /// Registers the backends of a plugin that is part of the program.
 CEED_EXTERN int CeedPluginRegister(const CeedPlugin *plugin);
-/// Loads a plugin library. Errors (missing file or symbol, another API version, wrong architecture) are returned and
-/// named in CeedPluginLoadError(); no handler is called, and what was registered before stays.
+/// Loads a plugin library from a file. Errors (missing file or symbol, another API version, wrong architecture, a file
+/// cut short, an exception) are returned and named in CeedPluginLoadError(); no handler is called, and what was
+/// registered before stays. Beside this, plugins are looked for once, at the first use of the library: files *.so in
+/// ceed-plugins/ beside the library, then in the folders of CEED_PLUGIN_PATH (separated by colons; a file is loaded);
+/// one that is refused is named on standard error. An exception from ceed_plugin_v1() does no harm; one from a static
+/// constructor leaves the dynamic loader locked by the calling thread, so that dlopen() works in no other.
 CEED_EXTERN int CeedPluginLoad(const char *path);
-/// Message of the last failed load in this process, or "".
+/// Message of this thread's last CeedPluginLoad(), or "" where it went well.
 CEED_EXTERN const char *CeedPluginLoadError(void);
+
+/// What became of a plugin. All of it lives as long as the process.
+typedef struct {
+  const char *path;          ///< its file; "": part of the library or of the program
+  const CeedPlugin *plugin;  ///< NULL: it was refused
+  const char *error;         ///< why it was refused, or ""
+} CeedPluginInfo;
+/// All plugins that this process has met, refused ones too, in the order of loading. The caller frees the list with
+/// free().
+CEED_EXTERN int CeedPluginGetList(size_t *num_plugins, CeedPluginInfo **plugins);
+/// The tables that `ceed` works with: its ancestors' and its own. They live as long as `ceed`.
+CEED_EXTERN int CeedGetBackendOps(Ceed ceed, const CeedBackendOps **ops);
 /// The lowered operator; valid until the operator is destroyed or its points are set again. `op` is not composite.
 CEED_EXTERN int CeedOperatorGetProgram(CeedOperator op, const CeedProgram **program);
 

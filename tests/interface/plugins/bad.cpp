@@ -1,6 +1,7 @@
 // Plugins that must be refused, one for each value of HG_BAD_PLUGIN.
 #include <ceed/plugin.h>
 
+#include <exception>
 #include <stdexcept>
 
 namespace {
@@ -61,6 +62,49 @@ const CeedPlugin *ceed_plugin_v1(void) {
        .score = nullptr,
        .init = init}};
   static const CeedPlugin plugin = {sizeof(CeedPlugin), CEED_PLUGIN_API_VERSION, "a thief", 2, taken};
+  return &plugin;
+}
+
+#elif HG_BAD_PLUGIN == 7  // throws a type whose code is in the plugin
+
+namespace {
+class OwnError : public std::exception {
+ public:
+  ~OwnError() override;
+  const char *what() const noexcept override { return "an error of a type of the plugin's own"; }
+};
+OwnError::~OwnError() = default;
+}  // namespace
+
+const CeedPlugin *ceed_plugin_v1(void) {
+  throw OwnError();
+}
+
+#elif HG_BAD_PLUGIN == 8  // a static constructor throws
+
+namespace {
+[[maybe_unused]] const int never_made = [] {
+  throw std::runtime_error("no room for a table");
+  return 1;
+}();
+}  // namespace
+
+const CeedPlugin *ceed_plugin_v1(void) {
+  static const CeedPlugin plugin = {sizeof(CeedPlugin), CEED_PLUGIN_API_VERSION, "half made", 1, backends};
+  return &plugin;
+}
+
+#elif HG_BAD_PLUGIN == 9  // nameless
+
+const CeedPlugin *ceed_plugin_v1(void) {
+  static const CeedPlugin plugin = {sizeof(CeedPlugin), CEED_PLUGIN_API_VERSION, nullptr, 1, backends};
+  return &plugin;
+}
+
+#elif HG_BAD_PLUGIN == 10  // backends that are not there
+
+const CeedPlugin *ceed_plugin_v1(void) {
+  static const CeedPlugin plugin = {sizeof(CeedPlugin), CEED_PLUGIN_API_VERSION, "empty-handed", 3, nullptr};
   return &plugin;
 }
 

@@ -9,6 +9,12 @@ int score_zero(const char **reason) {
   *reason = "no such device in this machine";
   return 0;
 }
+int score_throws(const char **) {
+  throw std::runtime_error("the driver is of another year");
+}
+int score_throws_odd(const char **) {
+  throw 42;
+}
 int never(Ceed, const char *, CeedBackendOps *) {
   throw std::logic_error("init of a backend with score 0");
 }
@@ -28,6 +34,8 @@ int works(Ceed, const char *, CeedBackendOps *) {
 constexpr const char *ref = "/cpu/self/ref/serial";
 const CeedBackend backends[] = {
     {"/test/absent", ref, 1, nullptr, score_zero, never},
+    {"/test/unsure", ref, 1, nullptr, score_throws, never},
+    {"/test/unsure oddly", ref, 1, nullptr, score_throws_odd, never},
     {"/test/failing", ref, 1, nullptr, nullptr, fails},
     {"/test/throwing", ref, 1, nullptr, nullptr, throws},
     {"/test/throwing oddly", ref, 1, nullptr, nullptr, throws_odd},
