@@ -14,10 +14,10 @@ void contract_direction(const CeedScalar *matrix, CeedInt rows, CeedInt columns,
   if (!add) std::fill_n(out, static_cast<CeedSize>(before) * rows * after, 0.0);
   for (CeedInt c = 0; c < after; c++) {
     for (CeedInt i = 0; i < rows; i++) {
-      CeedScalar *out_i = out + static_cast<CeedSize>(c * rows + i) * before;
+      CeedScalar *out_i = out + (static_cast<CeedSize>(c) * rows + i) * before;
       for (CeedInt j = 0; j < columns; j++) {
         const CeedScalar m = matrix[i * columns + j];
-        const CeedScalar *in_j = in + static_cast<CeedSize>(c * columns + j) * before;
+        const CeedScalar *in_j = in + (static_cast<CeedSize>(c) * columns + j) * before;
         for (CeedInt a = 0; a < before; a++) out_i[a] += m * in_j[a];
       }
     }
@@ -34,29 +34,49 @@ std::vector<CeedScalar> transpose(const std::vector<CeedScalar> &a, CeedInt rows
 
 }  // namespace
 
+void ElementBasis::add_factors(const CeedScalar *matrices, CeedInt count) {
+  const std::size_t size = static_cast<std::size_t>(Q_) * P_;
+  for (CeedInt g = 0; g < count; g++) {
+    std::vector<CeedScalar> matrix(matrices + g * size, matrices + (g + 1) * size), t = transpose(matrix, Q_, P_);
+    factors_.push_back({std::move(matrix), std::move(t)});
+  }
+}
+
 int ElementBasis::create(CeedBasis basis, ElementBasis *element_basis) {
   ElementBasis b;
-  bool is_tensor;
-  const CeedScalar *interp, *grad, *weight, *chebyshev;
-  CeedCallBackend(CeedBasisIsTensor(basis, &is_tensor));
-  CeedCheck(is_tensor, CeedBasisReturnCeed(basis), CEED_ERROR_UNSUPPORTED,
-            "Backend does not implement bases without tensor product");
+  const CeedScalar *interp, *derivative, *weight, *chebyshev = nullptr;
+  CeedCallBackend(CeedBasisIsTensor(basis, &b.is_tensor_));
   CeedCallBackend(CeedBasisGetDimension(basis, &b.dim_));
   CeedCallBackend(CeedBasisGetNumComponents(basis, &b.num_comp_));
-  CeedCallBackend(CeedBasisGetNumNodes1D(basis, &b.P_));
-  CeedCallBackend(CeedBasisGetNumQuadraturePoints1D(basis, &b.Q_));
-  CeedCallBackend(CeedBasisGetInterp1D(basis, &interp));
-  CeedCallBackend(CeedBasisGetGrad1D(basis, &grad));
+  if (b.is_tensor_) {
+    b.num_directions_ = b.q_derivative_ = b.dim_;
+    CeedCallBackend(CeedBasisGetNumNodes1D(basis, &b.P_));
+    CeedCallBackend(CeedBasisGetNumQuadraturePoints1D(basis, &b.Q_));
+    CeedCallBackend(CeedBasisGetInterp1D(basis, &interp));
+    CeedCallBackend(CeedBasisGetGrad1D(basis, &derivative));
+    CeedCallBackend(CeedBasisGetChebyshevCoefficients1D(basis, &b.num_coeff_, &chebyshev));
+    b.add_factors(interp, 1);
+    b.add_factors(derivative, 1);
+  } else {
+    CeedEvalMode mode = CEED_EVAL_NONE;
+    b.num_directions_ = 1;
+    CeedCallBackend(CeedBasisGetNumNodes(basis, &b.P_));
+    CeedCallBackend(CeedBasisGetNumQuadraturePoints(basis, &b.Q_));
+    CeedCallBackend(CeedBasisGetNumQuadratureComponents(basis, CEED_EVAL_INTERP, &b.q_interp_));
+    CeedCallBackend(CeedBasisGetInterp(basis, &interp));
+    b.add_factors(interp, b.q_interp_);
+    CeedCallBackend(CeedBasisGetDerivativeMode(basis, &mode));
+    if (mode != CEED_EVAL_NONE) {
+      CeedCallBackend(CeedBasisGetNumQuadratureComponents(basis, mode, &b.q_derivative_));
+      CeedCallBackend(CeedOperatorGetBasisPointer(basis, mode, nullptr, &derivative));
+      b.add_factors(derivative, b.q_derivative_);
+    }
+  }
   CeedCallBackend(CeedBasisGetQWeights(basis, &weight));
-  CeedCallBackend(CeedBasisGetChebyshevCoefficients1D(basis, &b.num_coeff_, &chebyshev));
-  b.interp_.assign(interp, interp + b.Q_ * b.P_);
-  b.grad_.assign(grad, grad + b.Q_ * b.P_);
-  b.interp_transpose_ = transpose(b.interp_, b.Q_, b.P_);
-  b.grad_transpose_ = transpose(b.grad_, b.Q_, b.P_);
   b.weight_.assign(weight, weight + b.Q_);
   if (b.num_coeff_ > 0) b.chebyshev_.assign(chebyshev, chebyshev + b.num_coeff_ * b.P_);
-  const std::size_t most = static_cast<std::size_t>(power(std::max(b.P_, b.Q_), b.dim_)) * b.num_comp_;
-  for (auto &work : b.work_) work.resize(most);
+  const std::size_t most = static_cast<std::size_t>(power(std::max(b.P_, b.Q_), b.num_directions_)) * b.num_comp_;
+  for (auto &work : b.work_) work.resize(b.num_directions_ > 1 ? most : 0);
   if (b.can_evaluate_at_points()) {
     const std::size_t at_nodes = static_cast<std::size_t>(b.num_nodes()) * b.num_comp_;
     b.node_lanes_.resize(at_nodes);
@@ -66,30 +86,30 @@ int ElementBasis::create(CeedBasis basis, ElementBasis *element_basis) {
   return CEED_ERROR_SUCCESS;
 }
 
-// u(i, j, k) -> sum_ijk A_0(x, i) A_1(y, j) A_2(z, k) u(i, j, k), where A_d is grad for the direction of the
-// derivative and interp otherwise.
+// u(i, j, k) -> sum_ijk A_0(x, i) A_1(y, j) A_2(z, k) u(i, j, k) with the factors A_d of each value.
 void ElementBasis::apply(CeedEvalMode mode, const CeedScalar *u, CeedScalar *v) {
+  const CeedInt last = num_directions_ - 1;
   const CeedSize size = static_cast<CeedSize>(num_quadrature_points()) * num_comp_;
   for (CeedInt g = 0; g < q_comp(mode); g++) {
     const CeedScalar *in = u;
-    for (CeedInt d = 0; d < dim_; d++) {
-      CeedScalar *out = d + 1 == dim_ ? v + g * size : work_[d].data();
-      const auto &matrix = mode == CEED_EVAL_GRAD && d == g ? grad_ : interp_;
-      contract_direction(matrix.data(), Q_, P_, power(Q_, d), power(P_, dim_ - 1 - d) * num_comp_, in, out, false);
+    for (CeedInt d = 0; d <= last; d++) {
+      CeedScalar *out = d == last ? v + g * size : work_[d].data();
+      contract_direction(factor(mode, g, d).matrix.data(), Q_, P_, power(Q_, d), power(P_, last - d) * num_comp_, in,
+                         out, false);
       in = out;
     }
   }
 }
 
 void ElementBasis::apply_transpose_add(CeedEvalMode mode, const CeedScalar *v, CeedScalar *u) {
+  const CeedInt last = num_directions_ - 1;
   const CeedSize size = static_cast<CeedSize>(num_quadrature_points()) * num_comp_;
   for (CeedInt g = 0; g < q_comp(mode); g++) {
     const CeedScalar *in = v + g * size;
-    for (CeedInt d = 0; d < dim_; d++) {
-      CeedScalar *out = d + 1 == dim_ ? u : work_[d].data();
-      const auto &matrix = mode == CEED_EVAL_GRAD && d == g ? grad_transpose_ : interp_transpose_;
-      contract_direction(matrix.data(), P_, Q_, power(P_, d), power(Q_, dim_ - 1 - d) * num_comp_, in, out,
-                         d + 1 == dim_);
+    for (CeedInt d = 0; d <= last; d++) {
+      CeedScalar *out = d == last ? u : work_[d].data();
+      contract_direction(factor(mode, g, d).transpose.data(), P_, Q_, power(P_, d), power(Q_, last - d) * num_comp_, in,
+                         out, d == last);
       in = out;
     }
   }
@@ -98,7 +118,7 @@ void ElementBasis::apply_transpose_add(CeedEvalMode mode, const CeedScalar *v, C
 void ElementBasis::weights(CeedScalar *w) const {
   for (CeedInt q = 0; q < num_quadrature_points(); q++) {
     w[q] = 1.0;
-    for (CeedInt d = 0, rest = q; d < dim_; d++, rest /= Q_) w[q] *= weight_[rest % Q_];
+    for (CeedInt d = 0, rest = q; d < num_directions_; d++, rest /= Q_) w[q] *= weight_[rest % Q_];
   }
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Bases of the reference backend: tensor contraction, one direction after another.
+/// Bases of the reference backend: products of small matrices, one direction after another.
 #pragma once
 
 #include <ceed/plugin.h>
@@ -13,7 +13,9 @@ inline constexpr CeedInt lanes = 8;
 
 /// A basis for one element at a time, made once from a CeedBasis of which it keeps nothing. Arrays are those of
 /// CeedBasisApply() for one element: P is the number of nodes, Q of quadrature points, nc of components,
-/// q_comp is dim for CEED_EVAL_GRAD and 1 for CEED_EVAL_INTERP; no other mode is used here.
+/// q_comp of values a component. Modes are CEED_EVAL_INTERP and the space's derivative (gradient, divergence or curl).
+/// Each of the q_comp values is B u with B a Kronecker product of matrices, one for each direction; a basis without
+/// tensor product has one direction, along which its nodes and quadrature points are numbered.
 /// There is no allocation but in set_points() when more points come than ever before. One object serves one thread.
 class ElementBasis {
  public:
@@ -23,9 +25,9 @@ class ElementBasis {
 
   CeedInt dim() const { return dim_; }
   CeedInt num_comp() const { return num_comp_; }
-  CeedInt num_nodes() const { return power(P_, dim_); }
-  CeedInt num_quadrature_points() const { return power(Q_, dim_); }
-  CeedInt q_comp(CeedEvalMode mode) const { return mode == CEED_EVAL_GRAD ? dim_ : 1; }
+  CeedInt num_nodes() const { return power(P_, num_directions_); }
+  CeedInt num_quadrature_points() const { return power(Q_, num_directions_); }
+  CeedInt q_comp(CeedEvalMode mode) const { return mode == CEED_EVAL_INTERP ? q_interp_ : q_derivative_; }
 
   /// v = B u at the quadrature points; u: P x nc, v: Q x nc x q_comp.
   void apply(CeedEvalMode mode, const CeedScalar *u, CeedScalar *v);
@@ -67,11 +69,25 @@ class ElementBasis {
   static void contract(CeedInt rows, CeedInt P, const Lane *table, const Lane *in, Lane *out);
   static void expand_add(CeedInt rows, CeedInt P, const Lane *table, const Lane *in, Lane *out);
 
-  CeedInt dim_ = 0, num_comp_ = 0, P_ = 0, Q_ = 0, num_coeff_ = 0;
-  std::vector<CeedScalar> interp_, grad_;                      ///< Q_1d by P_1d
-  std::vector<CeedScalar> interp_transpose_, grad_transpose_;  ///< P_1d by Q_1d
-  std::vector<CeedScalar> weight_;                             ///< Q_1d
-  std::vector<CeedScalar> chebyshev_;                          ///< num_coeff by P_1d
+  /// A matrix of one direction and its transpose.
+  struct Factor {
+    std::vector<CeedScalar> matrix;     ///< Q by P of a direction
+    std::vector<CeedScalar> transpose;  ///< P by Q
+  };
+  /// The factor of direction d in value g.
+  const Factor &factor(CeedEvalMode mode, CeedInt g, CeedInt d) const {
+    if (is_tensor_) return factors_[mode == CEED_EVAL_GRAD && d == g ? 1 : 0];
+    return factors_[mode == CEED_EVAL_INTERP ? g : q_interp_ + g];
+  }
+  void add_factors(const CeedScalar *matrices, CeedInt count);
+
+  bool is_tensor_ = true;
+  CeedInt dim_ = 0, num_directions_ = 0, num_comp_ = 0;
+  CeedInt P_ = 0, Q_ = 0;  ///< nodes and points of a direction
+  CeedInt q_interp_ = 1, q_derivative_ = 0, num_coeff_ = 0;
+  std::vector<Factor> factors_;        ///< tensor: interpolation, gradient; else one for each value of each mode
+  std::vector<CeedScalar> weight_;     ///< Q of a direction
+  std::vector<CeedScalar> chebyshev_;  ///< num_coeff by P_1d
   std::vector<CeedScalar> work_[2];
   CeedInt num_points_ = 0;
   std::vector<Lane> table_;        ///< (value or derivative of node, direction, block of points)

@@ -92,9 +92,7 @@ class Table {
     table_.assign(static_cast<std::size_t>(Q_) * num_rows() * P_, 0.0);
     CeedInt k = 0;
     for (const Field &field : fields_) {
-      const CeedScalar *matrix = nullptr;
-      if (field.mode == CEED_EVAL_INTERP) hg::check(CeedBasisGetInterp(field.basis, &matrix));
-      if (field.mode == CEED_EVAL_GRAD) hg::check(CeedBasisGetGrad(field.basis, &matrix));
+      const CeedScalar *matrix = field.basis != nullptr ? hg::matrix(*field.basis, field.mode).data() : nullptr;
       for (CeedInt d = 0; d < field.q_comp; d++, k++) {
         for (CeedInt q = 0; q < Q_; q++) {
           if (matrix == nullptr) {

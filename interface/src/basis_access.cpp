@@ -8,12 +8,12 @@ namespace {
 
 constexpr CeedScalar rounding = 1e-14;
 
-/// A 1D table as View prints it: one row stays on the line of its name.
-void print_table(FILE *stream, const std::string &indent, const char *name, CeedInt rows, CeedInt columns,
+/// A table as View prints it: one row stays on the line of its name.
+void print_table(FILE *stream, const std::string &indent, const char *name, CeedSize rows, CeedInt columns,
                  const std::vector<CeedScalar> &values) {
   std::fprintf(stream, rows > 1 ? "%s  %s\n" : "%s  %-10s", indent.c_str(), name);
-  for (CeedInt i = 0; i < rows; i++) {
-    if (rows > 1) std::fprintf(stream, "%s    [%" CeedInt_FMT "]", indent.c_str(), i);
+  for (CeedSize i = 0; i < rows; i++) {
+    if (rows > 1) std::fprintf(stream, "%s    [%" CeedSize_FMT "]", indent.c_str(), i);
     for (CeedInt j = 0; j < columns; j++) {
       const CeedScalar x = values[i * columns + j];
       std::fprintf(stream, "\t% 12.8f", std::abs(x) > rounding ? x : 0.0);
@@ -59,14 +59,14 @@ int get(CeedBasis basis, T *value, const char *name, Get &&getter) {
   });
 }
 
-void require_tensor(const CeedBasis_private &b, const char *what) {
-  hg::require(b.is_tensor, CEED_ERROR_MINOR,
-              [&] { return hg::text("CeedBasis: %s was asked of a basis without tensor product", what); });
-}
-
 }  // namespace
 
 namespace hg {
+
+void require_tensor(const CeedBasis_private &b, const char *what) {
+  require(b.is_tensor, CEED_ERROR_MINOR,
+              [&] { return text("CeedBasis: %s was asked of a basis without tensor product", what); });
+}
 
 CeedBasis_private &deref_basis(CeedBasis basis, Where where) {
   deref(basis, "CeedBasis", where);
@@ -87,24 +87,62 @@ bool equal(const CeedBasis_private &a, const CeedBasis_private &b) {
   return a.topology == b.topology && a.fe_space == b.fe_space && a.is_tensor == b.is_tensor && a.dim == b.dim &&
          a.num_comp == b.num_comp && a.P == b.P && a.Q == b.Q && a.q_ref == b.q_ref && a.q_weight == b.q_weight &&
          (a.is_tensor ? a.interp_1d == b.interp_1d && a.grad_1d == b.grad_1d && a.chebyshev_1d == b.chebyshev_1d
-                      : a.interp == b.interp && a.grad == b.grad);
+                      : a.interp == b.interp && a.derivative == b.derivative);
+}
+
+CeedEvalMode derivative_mode(CeedFESpace space) {
+  switch (space) {
+    case CEED_FE_SPACE_HDIV:
+      return CEED_EVAL_DIV;
+    case CEED_FE_SPACE_HCURL:
+      return CEED_EVAL_CURL;
+    default:
+      return CEED_EVAL_GRAD;
+  }
+}
+
+CeedInt q_components(CeedFESpace space, CeedInt dim, CeedEvalMode mode) {
+  const bool is_scalar = space == CEED_FE_SPACE_H1;
+  if (mode == CEED_EVAL_NONE || mode == CEED_EVAL_WEIGHT) return 1;
+  if (mode == CEED_EVAL_INTERP) return is_scalar ? 1 : dim;
+  require(mode == derivative_mode(space), CEED_ERROR_UNSUPPORTED, [&] {
+    const char *derivative = is_scalar                     ? "CEED_EVAL_GRAD"
+                             : space == CEED_FE_SPACE_HDIV ? "CEED_EVAL_DIV"
+                                                           : "CEED_EVAL_CURL";
+    return text("CeedBasis: evaluation mode is %d; a basis in a %s has CEED_EVAL_INTERP, %s and CEED_EVAL_WEIGHT",
+                static_cast<int>(mode), CeedFESpaces[space], derivative);
+  });
+  return mode == CEED_EVAL_GRAD || (mode == CEED_EVAL_CURL && dim == 3) ? dim : 1;
 }
 
 CeedInt q_components(const CeedBasis_private &basis, CeedEvalMode mode) {
-  switch (mode) {
-    case CEED_EVAL_NONE:
-    case CEED_EVAL_INTERP:
-    case CEED_EVAL_WEIGHT:
-      return 1;
-    case CEED_EVAL_GRAD:
-      require(!basis.is_sentinel, CEED_ERROR_INCOMPATIBLE, "CEED_BASIS_NONE has no CEED_EVAL_GRAD");
-      return basis.dim;
-    default:
-      throw Error(CEED_ERROR_UNSUPPORTED,
-                  text("CeedBasis: evaluation mode is %d; an H^1 basis has CEED_EVAL_INTERP, CEED_EVAL_GRAD and "
-                       "CEED_EVAL_WEIGHT",
-                       static_cast<int>(mode)));
-  }
+  const bool is_derivative = mode == CEED_EVAL_GRAD || mode == CEED_EVAL_DIV || mode == CEED_EVAL_CURL;
+  require(!basis.is_sentinel || !is_derivative, CEED_ERROR_INCOMPATIBLE,
+          [&] { return text("CEED_BASIS_NONE has no derivatives; evaluation mode is %s", CeedEvalModes[mode]); });
+  return q_components(basis.fe_space, basis.dim, mode);
+}
+
+void require_evaluation(const CeedBasis_private &basis, CeedEvalMode mode) {
+  require(mode != CEED_EVAL_NONE && mode != CEED_EVAL_WEIGHT, CEED_ERROR_UNSUPPORTED, [&] {
+    return text("CeedBasis: evaluation mode is %d; expected CEED_EVAL_INTERP or a derivative", static_cast<int>(mode));
+  });
+  q_components(basis, mode);
+  require(mode == CEED_EVAL_INTERP || basis.is_tensor || !basis.derivative.empty(), CEED_ERROR_UNSUPPORTED, [&] {
+    return text("CeedBasis: evaluation mode is %s; this basis in a %s was made without a matrix for it",
+                CeedEvalModes[mode], CeedFESpaces[basis.fe_space]);
+  });
+}
+
+const std::vector<CeedScalar> &matrix(CeedBasis_private &basis, CeedEvalMode mode) {
+  require_evaluation(basis, mode);
+  const bool is_interp = mode == CEED_EVAL_INTERP;
+  auto &full = is_interp ? basis.interp : basis.derivative;
+  if (!full.empty()) return full;
+  const std::size_t size = static_cast<std::size_t>(basis.Q) * basis.P;
+  full.resize(is_interp ? size : basis.dim * size);
+  if (is_interp) kronecker(basis, -1, full.data());
+  for (CeedInt g = 0; !is_interp && g < basis.dim; g++) kronecker(basis, g, full.data() + g * size);
+  return full;
 }
 
 }  // namespace hg
@@ -118,13 +156,23 @@ void CeedBasis_private::view(FILE *stream) const {
   }
   std::fprintf(stream, "%sCeedBasis in a %s on a %s element\n", in, CeedFESpaces[fe_space],
                CeedElemTopologies[topology]);
-  std::fprintf(stream, "%s  P: %" CeedInt_FMT "\n%s  Q: %" CeedInt_FMT "\n", in, P_1d, in, Q_1d);
+  std::fprintf(stream, "%s  P: %" CeedInt_FMT "\n%s  Q: %" CeedInt_FMT "\n", in, is_tensor ? P_1d : P, in,
+               is_tensor ? Q_1d : Q);
   std::fprintf(stream, "%s  dimension: %" CeedInt_FMT "\n%s  field components: %" CeedInt_FMT "\n", in, dim, in,
                num_comp);
-  print_table(stream, indent, "qref1d:", 1, Q_1d, q_ref);
-  print_table(stream, indent, "qweight1d:", 1, Q_1d, q_weight);
-  print_table(stream, indent, "interp1d:", Q_1d, P_1d, interp_1d);
-  print_table(stream, indent, "grad1d:", Q_1d, P_1d, grad_1d);
+  if (is_tensor) {
+    print_table(stream, indent, "qref1d:", 1, Q_1d, q_ref);
+    print_table(stream, indent, "qweight1d:", 1, Q_1d, q_weight);
+    print_table(stream, indent, "interp1d:", Q_1d, P_1d, interp_1d);
+    print_table(stream, indent, "grad1d:", Q_1d, P_1d, grad_1d);
+    return;
+  }
+  const char *derivative_name = fe_space == CEED_FE_SPACE_H1 ? "grad:" : fe_space == CEED_FE_SPACE_HDIV ? "div:" : "curl:";
+  print_table(stream, indent, "qref:", 1, dim * Q, q_ref);
+  print_table(stream, indent, "qweight:", 1, Q, q_weight);
+  const auto rows = [&](const std::vector<CeedScalar> &matrix) { return static_cast<CeedSize>(matrix.size()) / P; };
+  print_table(stream, indent, "interp:", rows(interp), P, interp);
+  if (!derivative.empty()) print_table(stream, indent, derivative_name, rows(derivative), P, derivative);
 }
 
 int CeedBasisView(CeedBasis basis, FILE *stream) {
@@ -169,7 +217,7 @@ int CeedBasisGetNumNodes(CeedBasis basis, CeedInt *P) {
 
 int CeedBasisGetNumNodes1D(CeedBasis basis, CeedInt *P_1d) {
   return get(basis, P_1d, "P_1d", [](auto &b) {
-    require_tensor(b, "P_1d");
+    hg::require_tensor(b, "P_1d");
     return b.P_1d;
   });
 }
@@ -180,7 +228,7 @@ int CeedBasisGetNumQuadraturePoints(CeedBasis basis, CeedInt *Q) {
 
 int CeedBasisGetNumQuadraturePoints1D(CeedBasis basis, CeedInt *Q_1d) {
   return get(basis, Q_1d, "Q_1d", [](auto &b) {
-    require_tensor(b, "Q_1d");
+    hg::require_tensor(b, "Q_1d");
     return b.Q_1d;
   });
 }
@@ -194,36 +242,45 @@ int CeedBasisGetQWeights(CeedBasis basis, const CeedScalar **q_weights) {
 }
 
 int CeedBasisGetInterp(CeedBasis basis, const CeedScalar **interp) {
-  return get(basis, interp, "interp", [](auto &b) {
-    if (b.is_tensor && b.interp.empty()) {
-      b.interp.resize(static_cast<std::size_t>(b.Q) * b.P);
-      kronecker(b, -1, b.interp.data());
+  return get(basis, interp, "interp", [](auto &b) { return hg::matrix(b, CEED_EVAL_INTERP).data(); });
+}
+
+int CeedBasisGetGrad(CeedBasis basis, const CeedScalar **grad) {
+  return get(basis, grad, "grad", [](auto &b) { return hg::matrix(b, CEED_EVAL_GRAD).data(); });
+}
+
+int CeedBasisGetDiv(CeedBasis basis, const CeedScalar **div) {
+  return get(basis, div, "div", [](auto &b) { return hg::matrix(b, CEED_EVAL_DIV).data(); });
+}
+
+int CeedBasisGetCurl(CeedBasis basis, const CeedScalar **curl) {
+  return get(basis, curl, "curl", [](auto &b) { return hg::matrix(b, CEED_EVAL_CURL).data(); });
+}
+
+int CeedOperatorGetBasisPointer(CeedBasis basis, CeedEvalMode eval_mode, const CeedScalar *identity,
+                                const CeedScalar **basis_ptr) {
+  return hg::guard(hg::ceed_of(basis), [&] {
+    hg::deref(basis, "CeedBasis");
+    hg::require_argument(*basis, basis_ptr, "basis_ptr (where the address goes)");
+    if (eval_mode == CEED_EVAL_NONE) {
+      hg::require_argument(*basis, identity, "identity, the matrix of CEED_EVAL_NONE");
+      *basis_ptr = identity;
+    } else {
+      *basis_ptr = hg::matrix(hg::deref_basis(basis), eval_mode).data();
     }
-    return b.interp.data();
   });
 }
 
 int CeedBasisGetInterp1D(CeedBasis basis, const CeedScalar **interp_1d) {
   return get(basis, interp_1d, "interp_1d", [](auto &b) {
-    require_tensor(b, "interp_1d");
+    hg::require_tensor(b, "interp_1d");
     return b.interp_1d.data();
-  });
-}
-
-int CeedBasisGetGrad(CeedBasis basis, const CeedScalar **grad) {
-  return get(basis, grad, "grad", [](auto &b) {
-    if (b.is_tensor && b.grad.empty()) {
-      const std::size_t size = static_cast<std::size_t>(b.Q) * b.P;
-      b.grad.resize(b.dim * size);
-      for (CeedInt g = 0; g < b.dim; g++) kronecker(b, g, b.grad.data() + g * size);
-    }
-    return b.grad.data();
   });
 }
 
 int CeedBasisGetGrad1D(CeedBasis basis, const CeedScalar **grad_1d) {
   return get(basis, grad_1d, "grad_1d", [](auto &b) {
-    require_tensor(b, "grad_1d");
+    hg::require_tensor(b, "grad_1d");
     return b.grad_1d.data();
   });
 }
@@ -235,10 +292,12 @@ int CeedBasisIsTensor(CeedBasis basis, bool *is_tensor) {
 // The quadrature points are the nodes where interpolation is the identity.
 int CeedBasisIsCollocated(CeedBasis basis, bool *is_collocated) {
   return get(basis, is_collocated, "is_collocated", [](auto &b) {
-    if (!b.is_tensor || b.P_1d != b.Q_1d) return false;
-    for (CeedInt i = 0; i < b.Q_1d; i++) {
-      for (CeedInt j = 0; j < b.P_1d; j++) {
-        if (std::abs(b.interp_1d[i * b.P_1d + j] - (i == j ? 1.0 : 0.0)) > rounding) return false;
+    const CeedInt n = b.is_tensor ? b.P_1d : b.P;
+    if (b.P != b.Q || b.fe_space != CEED_FE_SPACE_H1) return false;
+    const auto &interp = b.is_tensor ? b.interp_1d : b.interp;
+    for (CeedInt i = 0; i < n; i++) {
+      for (CeedInt j = 0; j < n; j++) {
+        if (std::abs(interp[static_cast<CeedSize>(i) * n + j] - (i == j ? 1.0 : 0.0)) > rounding) return false;
       }
     }
     return true;
@@ -276,33 +335,33 @@ int CeedBasisGetFlopsEstimate(CeedBasis basis, CeedTransposeMode t_mode, CeedEva
     });
     // The transpose does the same multiplications in the other order.
     static_cast<void>(t_mode);
-    const bool is_grad = eval_mode == CEED_EVAL_GRAD;
-    switch (eval_mode) {
-      case CEED_EVAL_NONE:
-        *flops = 0;
-        break;
-      case CEED_EVAL_WEIGHT:
-        *flops = is_at_points ? 0 : static_cast<CeedSize>(b.dim - 1) * b.Q;
-        break;
-      case CEED_EVAL_INTERP:
-      case CEED_EVAL_GRAD:
-        if (is_at_points) {
-          hg::require_polynomial(b);
-          const CeedSize tables = is_grad ? 2 : 1;
-          const CeedSize one_d = b.dim * tables * (3 + 2 * static_cast<CeedSize>(b.P_1d)) * b.num_chebyshev();
-          *flops = num_points * (one_d + 2 * b.num_comp * contraction_size(b.dim, b.P_1d, 1, is_grad));
-        } else {
-          *flops = 2 * b.num_comp * contraction_size(b.dim, b.P_1d, b.Q_1d, is_grad);
-        }
-        break;
-      default:
-        hg::q_components(b, eval_mode);  // names the mode that an H^1 basis lacks
+    const CeedSize q_comp = hg::q_components(b, eval_mode);
+    if (eval_mode == CEED_EVAL_NONE) {
+      *flops = 0;
+    } else if (eval_mode == CEED_EVAL_WEIGHT) {
+      *flops = is_at_points || !b.is_tensor ? 0 : static_cast<CeedSize>(b.dim - 1) * b.Q;
+    } else if (is_at_points) {
+      hg::require_polynomial(b);
+      const bool is_grad = eval_mode == CEED_EVAL_GRAD;
+      const CeedSize tables = is_grad ? 2 : 1;
+      const CeedSize one_d = b.dim * tables * (3 + 2 * static_cast<CeedSize>(b.P_1d)) * b.num_chebyshev();
+      *flops = num_points * (one_d + 2 * b.num_comp * contraction_size(b.dim, b.P_1d, 1, is_grad));
+    } else if (b.is_tensor) {
+      *flops = 2 * b.num_comp * contraction_size(b.dim, b.P_1d, b.Q_1d, eval_mode == CEED_EVAL_GRAD);
+    } else {
+      *flops = 2 * b.num_comp * q_comp * b.Q * b.P;
     }
   });
 }
 
 int CeedBasisGetFESpace(CeedBasis basis, CeedFESpace *fe_space) {
   return get(basis, fe_space, "fe_space", [](auto &b) { return b.fe_space; });
+}
+
+int CeedBasisGetDerivativeMode(CeedBasis basis, CeedEvalMode *eval_mode) {
+  return get(basis, eval_mode, "eval_mode", [](auto &b) {
+    return b.is_tensor || !b.derivative.empty() ? hg::derivative_mode(b.fe_space) : CEED_EVAL_NONE;
+  });
 }
 
 int CeedBasisGetTopologyDimension(CeedElemTopology topo, CeedInt *dim) {

@@ -43,6 +43,11 @@ std::vector<CeedScalar> chebyshev_coefficients(const std::vector<CeedScalar> &po
 }
 
 void require_polynomial(const CeedBasis_private &basis) {
+  require(basis.is_tensor, CEED_ERROR_UNSUPPORTED, [&] {
+    return text("CeedBasis: this basis in a %s has no tensor product: it is known at its quadrature points alone, and "
+                "cannot be evaluated at arbitrary points",
+                CeedFESpaces[basis.fe_space]);
+  });
   require(!basis.chebyshev_1d.empty(), CEED_ERROR_UNSUPPORTED, [&] {
     return text(
         "CeedBasis: evaluation at arbitrary points needs basis functions that are determined by their values at the "
@@ -73,6 +78,7 @@ int CeedBasisEvaluateAtPoint(CeedBasis basis, const CeedScalar *x_ref, CeedScala
   return hg::guard(hg::ceed_of(basis), [&] {
     const auto &b = hg::deref_basis(basis);
     hg::require_argument(b, x_ref, "x_ref (dim coordinates)");
+    hg::require_polynomial(b);
     const CeedInt P = b.P_1d;
     std::vector<CeedScalar> value(static_cast<std::size_t>(b.dim) * P), derivative(value.size());
     for (CeedInt d = 0; d < b.dim; d++) hg::evaluate_1d(b, x_ref[d], &value[d * P], &derivative[d * P]);
@@ -103,8 +109,7 @@ int CeedBasisGetChebyshevInterp1D(CeedBasis basis, CeedScalar *chebyshev_interp_
   return hg::guard(hg::ceed_of(basis), [&] {
     const auto &b = hg::deref_basis(basis);
     hg::require_argument(b, chebyshev_interp_1d, "chebyshev_interp_1d (Q_1d * P_1d entries)");
-    hg::require(b.is_tensor, CEED_ERROR_UNSUPPORTED,
-                "CeedBasis: a 1D matrix was asked of a basis without tensor product");
+    hg::require_tensor(b, "the Chebyshev interpolation");
     const auto coefficients = hg::chebyshev_coefficients(b.q_ref, b.interp_1d, b.P_1d);
     hg::require(!coefficients.empty(), CEED_ERROR_UNSUPPORTED,
                 "CeedBasis: quadrature points coincide; expected distinct points for Chebyshev coefficients");
@@ -117,8 +122,7 @@ int CeedBasisGetCollocatedGrad(CeedBasis basis, CeedScalar *colo_grad_1d) {
   return hg::guard(hg::ceed_of(basis), [&] {
     const auto &b = hg::deref_basis(basis);
     hg::require_argument(b, colo_grad_1d, "colo_grad_1d (Q_1d * Q_1d entries)");
-    hg::require(b.is_tensor, CEED_ERROR_UNSUPPORTED,
-                "CeedBasis: a 1D matrix was asked of a basis without tensor product");
+    hg::require_tensor(b, "the collocated gradient");
     const auto inverse = hg::pseudo_inverse(b.interp_1d, b.Q_1d, b.P_1d, "CeedBasis: interp_1d");
     const auto d = hg::multiply(b.grad_1d, inverse, b.Q_1d, b.P_1d, b.Q_1d);
     std::copy(d.begin(), d.end(), colo_grad_1d);

@@ -63,6 +63,12 @@ void check_basis_field(const CeedOperator_private &op, const char *name, CeedInt
                 " components; the basis has %" CeedInt_FMT,
                 op.shown_name(), name, rstr.num_comp, basis->num_comp);
   });
+  require(mode == CEED_EVAL_INTERP || mode == hg::derivative_mode(basis->fe_space), CEED_ERROR_UNSUPPORTED, [&] {
+    return text("CeedOperator '%s' field '%s' of mode %s: the basis is in a %s, which has %s and %s", op.shown_name(),
+                name, CeedEvalModes[mode], CeedFESpaces[basis->fe_space], CeedEvalModes[CEED_EVAL_INTERP],
+                CeedEvalModes[hg::derivative_mode(basis->fe_space)]);
+  });
+  hg::require_evaluation(*basis, mode);
   const CeedInt expected = basis->num_comp * hg::q_components(*basis, mode);
   require(size == expected, CEED_ERROR_DIMENSION, [&] {
     return text("CeedOperator '%s' field '%s' of mode %s: the QFunction gives size %" CeedInt_FMT

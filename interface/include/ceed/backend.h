@@ -116,18 +116,28 @@ CEED_EXTERN int CeedBasisGetCollocatedGrad(CeedBasis basis, CeedScalar *colo_gra
 CEED_EXTERN int CeedBasisGetChebyshevInterp1D(CeedBasis basis, CeedScalar *chebyshev_interp_1d);
 /// The 1D basis functions as they are evaluated at arbitrary points: num_coeff by P_1d matrix, row-major, whose entry
 /// (k, j) is the coefficient of the Chebyshev polynomial T_k in the function of node j. P_1d rows for Lagrange bases,
-/// Q_1d for bases from the user's matrices. The basis keeps it. 0 and NULL where the basis cannot be evaluated there.
+/// Q_1d for bases from the user's matrices. The basis keeps it. 0 and NULL where the basis cannot be evaluated there:
+/// no tensor product, or Q_1d < P_1d.
 CEED_EXTERN int CeedBasisGetChebyshevCoefficients1D(CeedBasis basis, CeedInt *num_coeff,
                                                     const CeedScalar **chebyshev_1d);
 CEED_EXTERN int CeedBasisIsTensor(CeedBasis basis, bool *is_tensor);
-/// Whether the quadrature points are the nodes.
+/// Whether the quadrature points are the nodes: interpolation is the identity.
 CEED_EXTERN int CeedBasisIsCollocated(CeedBasis basis, bool *is_collocated);
 CEED_EXTERN int CeedBasisGetData(CeedBasis basis, void *data);
 CEED_EXTERN int CeedBasisSetData(CeedBasis basis, void *data);
 CEED_EXTERN int CeedBasisReference(CeedBasis basis);
-/// Values at a point for one component: dim for CEED_EVAL_GRAD, else 1. CEED_BASIS_NONE has all but the gradient.
+/// Values at a point for one component: 1 for CEED_EVAL_NONE, CEED_EVAL_WEIGHT and CEED_EVAL_DIV; CEED_EVAL_INTERP: 1
+/// in H^1, else dim; CEED_EVAL_GRAD: dim; CEED_EVAL_CURL: 3 in three dimensions, else 1. An error for a mode that the
+/// space does not have; CEED_BASIS_NONE has no derivatives.
 CEED_EXTERN int CeedBasisGetNumQuadratureComponents(CeedBasis basis, CeedEvalMode eval_mode, CeedInt *q_comp);
-/// Floating point operations for one element, sum-factorised; at points for num_points points.
+/// CEED_EVAL_GRAD in H^1, CEED_EVAL_DIV in H(div), CEED_EVAL_CURL in H(curl); CEED_EVAL_NONE where the basis was made
+/// without a matrix for it.
+CEED_EXTERN int CeedBasisGetDerivativeMode(CeedBasis basis, CeedEvalMode *eval_mode);
+/// The basis as a matrix, q_comp by Q by num_nodes, row-major, in any mode but CEED_EVAL_WEIGHT; the basis keeps it. For
+/// CEED_EVAL_NONE that is `identity`, which else may be NULL.
+CEED_EXTERN int CeedOperatorGetBasisPointer(CeedBasis basis, CeedEvalMode eval_mode, const CeedScalar *identity,
+                                            const CeedScalar **basis_ptr);
+/// Floating point operations for one element, sum-factorised for tensor products; at points for num_points points.
 CEED_EXTERN int CeedBasisGetFlopsEstimate(CeedBasis basis, CeedTransposeMode t_mode, CeedEvalMode eval_mode,
                                           bool is_at_points, CeedInt num_points, CeedSize *flops);
 CEED_EXTERN int CeedBasisGetFESpace(CeedBasis basis, CeedFESpace *fe_space);

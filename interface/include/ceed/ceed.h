@@ -287,9 +287,13 @@ CEED_EXTERN int CeedElemRestrictionDestroy(CeedElemRestriction *rstr);
 
 /// @defgroup CeedBasis Bases
 /// Reference elements of tensor-product bases are [-1,1]^dim; nodes and quadrature points are numbered with x fastest.
+/// Other bases are in H^1, H(div) or H(curl), and are known by their matrices at the quadrature points of an element of
+/// any shape. Values (CEED_EVAL_INTERP) have q_comp = 1 entry a component in H^1 and dim entries in H(div) and H(curl).
+/// Each space has one derivative: the gradient in H^1 (q_comp = dim), the divergence in H(div) (1), the curl in H(curl)
+/// (3 in three dimensions, else 1). Matrices are q_comp by Q by num_nodes, row-major.
 /// Arrays for several elements hold one element after another. Within an element: at nodes (node, component), node
-/// fastest; values at points (point, component) and derivatives (point, component, direction), point fastest;
-/// quadrature weights one for each point.
+/// fastest; values and derivatives at points (point, component, entry), point fastest; quadrature weights one for each
+/// point.
 /// @{
 /// Lagrange basis of degree P-1 on Gauss-Lobatto nodes (P = 1: the constant) with Q points a direction, `num_comp`
 /// components. dim 1 to 3, P >= 1, Q >= 1 (>= 2 for Gauss-Lobatto points).
@@ -300,6 +304,24 @@ CEED_EXTERN int CeedBasisCreateTensorH1Lagrange(Ceed ceed, CeedInt dim, CeedInt 
 CEED_EXTERN int CeedBasisCreateTensorH1(Ceed ceed, CeedInt dim, CeedInt num_comp, CeedInt P_1d, CeedInt Q_1d,
                                         const CeedScalar *interp_1d, const CeedScalar *grad_1d,
                                         const CeedScalar *q_ref_1d, const CeedScalar *q_weight_1d, CeedBasis *basis);
+/// Bases from full matrices for an element of any shape; all is copied. q_ref (point, direction; point fastest) and
+/// q_weights may be NULL and are then zero; the derivative may be NULL, and then cannot be evaluated. num_comp copies of
+/// the space, num_nodes degrees of freedom each.
+CEED_EXTERN int CeedBasisCreateH1(Ceed ceed, CeedElemTopology topo, CeedInt num_comp, CeedInt num_nodes, CeedInt nqpts,
+                                  const CeedScalar *interp, const CeedScalar *grad, const CeedScalar *q_ref,
+                                  const CeedScalar *q_weights, CeedBasis *basis);
+CEED_EXTERN int CeedBasisCreateHdiv(Ceed ceed, CeedElemTopology topo, CeedInt num_comp, CeedInt num_nodes,
+                                    CeedInt nqpts, const CeedScalar *interp, const CeedScalar *div,
+                                    const CeedScalar *q_ref, const CeedScalar *q_weights, CeedBasis *basis);
+CEED_EXTERN int CeedBasisCreateHcurl(Ceed ceed, CeedElemTopology topo, CeedInt num_comp, CeedInt num_nodes,
+                                     CeedInt nqpts, const CeedScalar *interp, const CeedScalar *curl,
+                                     const CeedScalar *q_ref, const CeedScalar *q_weights, CeedBasis *basis);
+/// Basis that takes degrees of freedom of `basis_from` to those of `basis_to`, which are its quadrature points:
+/// interp = interp_to^+ interp_from, and in H^1 grad = interp_to^+ grad_from, with the pseudoinverse interp_to^+. Both are
+/// in one kind of space and share their quadrature points, at which those of `basis_to` are independent; tensor products
+/// or not. It has the components of `basis_from`, is in H^1 (degrees of freedom are numbers), is a tensor product where
+/// both are, and has no points or weights: zeros. From H(div) and H(curl) it has no derivative.
+CEED_EXTERN int CeedBasisCreateProjection(CeedBasis basis_from, CeedBasis basis_to, CeedBasis *basis_project);
 CEED_EXTERN int CeedBasisReferenceCopy(CeedBasis basis, CeedBasis *basis_copy);
 CEED_EXTERN int CeedBasisSetNumViewTabs(CeedBasis basis, CeedInt num_tabs);
 CEED_EXTERN int CeedBasisGetNumViewTabs(CeedBasis basis, CeedInt *num_tabs);
@@ -314,7 +336,8 @@ CEED_EXTERN int CeedBasisApplyAdd(CeedBasis basis, CeedInt num_elem, CeedTranspo
 /// The same at num_points[e] >= 0 arbitrary points of element e, with reference coordinates x_ref: (point, direction),
 /// point fastest, within an element. x_ref and the values and derivatives of element e start after those of the points
 /// of all elements before it. Weights at points are 1.
-/// Error CEED_ERROR_UNSUPPORTED for a basis from the user's matrices with Q_1d < P_1d, which determine no polynomial.
+/// Error CEED_ERROR_UNSUPPORTED for bases that are known at their quadrature points alone: those without tensor product,
+/// and those from the user's matrices with Q_1d < P_1d, which determine no polynomial.
 CEED_EXTERN int CeedBasisApplyAtPoints(CeedBasis basis, CeedInt num_elem, const CeedInt *num_points,
                                        CeedTransposeMode t_mode, CeedEvalMode eval_mode, CeedVector x_ref,
                                        CeedVector u, CeedVector v);
@@ -330,13 +353,16 @@ CEED_EXTERN int CeedBasisGetNumNodes(CeedBasis basis, CeedInt *P);
 CEED_EXTERN int CeedBasisGetNumNodes1D(CeedBasis basis, CeedInt *P_1d);
 CEED_EXTERN int CeedBasisGetNumQuadraturePoints(CeedBasis basis, CeedInt *Q);
 CEED_EXTERN int CeedBasisGetNumQuadraturePoints1D(CeedBasis basis, CeedInt *Q_1d);
-/// Reference points (1D ones for tensor bases), weights and matrices; the basis keeps them.
+/// Reference points and weights (1D ones for tensor bases) and matrices; the basis keeps them. Interp1D and Grad1D are of
+/// tensor bases alone; an error for the derivative of another space.
 CEED_EXTERN int CeedBasisGetQRef(CeedBasis basis, const CeedScalar **q_ref);
 CEED_EXTERN int CeedBasisGetQWeights(CeedBasis basis, const CeedScalar **q_weights);
 CEED_EXTERN int CeedBasisGetInterp(CeedBasis basis, const CeedScalar **interp);
 CEED_EXTERN int CeedBasisGetInterp1D(CeedBasis basis, const CeedScalar **interp_1d);
 CEED_EXTERN int CeedBasisGetGrad(CeedBasis basis, const CeedScalar **grad);
 CEED_EXTERN int CeedBasisGetGrad1D(CeedBasis basis, const CeedScalar **grad_1d);
+CEED_EXTERN int CeedBasisGetDiv(CeedBasis basis, const CeedScalar **div);
+CEED_EXTERN int CeedBasisGetCurl(CeedBasis basis, const CeedScalar **curl);
 CEED_EXTERN int CeedBasisDestroy(CeedBasis *basis);
 /// Q >= 1 Gauss points and weights on [-1,1], exact to degree 2Q-1; q_weight_1d may be NULL.
 CEED_EXTERN int CeedGaussQuadrature(CeedInt Q, CeedScalar *q_ref_1d, CeedScalar *q_weight_1d);

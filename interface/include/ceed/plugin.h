@@ -55,7 +55,10 @@ typedef struct {
                                     CeedVector ru);
 } CeedElemRestrictionOps;
 
-/// Bases. The core keeps the matrices on the host. `add`: v += ... (transpose only), else v is overwritten.
+/// Bases. The core keeps the matrices on the host: factors of one direction for tensor products
+/// (CeedBasisGetInterp1D() and its like), else full ones (CeedOperatorGetBasisPointer()). The modes are CEED_EVAL_INTERP,
+/// CEED_EVAL_WEIGHT and CeedBasisGetDerivativeMode(); at points they come for tensor products alone.
+/// `add`: v += ... (transpose only), else v is overwritten.
 typedef struct {
   int (*create)(CeedBasis basis);   ///< optional
   int (*destroy)(CeedBasis basis);  ///< optional
