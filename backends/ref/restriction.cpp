@@ -1,44 +1,89 @@
 #include "restriction.hpp"
 
+#include <algorithm>
+
 namespace hg::ref {
 
-int ElementMap::create(CeedElemRestriction rstr, ElementMap *map) {
-  *map = {};
-  bool is_strided = false;
-  CeedCallBackend(CeedElemRestrictionGetNumElements(rstr, &map->num_elem_));
-  CeedCallBackend(CeedElemRestrictionGetElementSize(rstr, &map->elem_size_));
-  CeedCallBackend(CeedElemRestrictionGetNumComponents(rstr, &map->num_comp_));
-  CeedCallBackend(CeedElemRestrictionIsStrided(rstr, &is_strided));
-  CeedCallBackend(CeedElemRestrictionIsAtPoints(rstr, &map->is_points_));
-  if (is_strided) {
-    CeedInt strides[3];
-    CeedCallBackend(CeedElemRestrictionGetLLayout(rstr, strides));
-    map->node_stride_ = strides[0];
-    map->comp_stride_ = strides[1];
-    map->elem_stride_ = strides[2];
-    return CEED_ERROR_SUCCESS;
+namespace {
+
+/// Where one element finds its nodes and its orientation.
+class Element {
+ public:
+  Element(const CeedElementMap &map, CeedInt e) : map_(map), step_(map.block_size), comp_stride_(map.comp_stride) {
+    const CeedSize block = e / map.block_size, in_block = e % map.block_size;
+    if (map.type == CEED_RESTRICTION_POINTS) {
+      nodes_ = map.offsets + map.offsets[e];
+      scale_ = map.num_comp;
+    } else if (map.type == CEED_RESTRICTION_STRIDED) {
+      start_ = static_cast<CeedSize>(e) * map.strides[2];
+      comp_stride_ = map.strides[1];
+    } else {
+      nodes_ = map.offsets + block * map.elem_size * map.block_size + in_block;
+      if (map.num_bands > 0) bands_ = map.bands + block * map.elem_size * map.num_bands * map.block_size + in_block;
+    }
   }
-  CeedCallBackend(CeedElemRestrictionGetCompStride(rstr, &map->comp_stride_));
-  // The offsets stay where they are for the life of the restriction, so their address outlives the access.
-  const CeedInt *offsets = nullptr;
-  CeedCallBackend(CeedElemRestrictionGetOffsets(rstr, CEED_MEM_HOST, &offsets));
-  map->offsets_ = offsets;
-  CeedCallBackend(CeedElemRestrictionRestoreOffsets(rstr, &offsets));
-  return CEED_ERROR_SUCCESS;
+
+  /// Place in the L-vector of component c of node n.
+  CeedSize entry(CeedInt n, CeedInt c) const {
+    const CeedSize node = nodes_ != nullptr ? static_cast<CeedSize>(nodes_[static_cast<CeedSize>(n) * step_]) * scale_
+                                            : start_ + static_cast<CeedSize>(n) * map_.strides[0];
+    return node + static_cast<CeedSize>(c) * comp_stride_;
+  }
+
+  /// Calls f(m, T_e(n,m)) for the nodes m in the bands of T_e.
+  template <typename F>
+  void for_row(CeedInt n, F &&f) const {
+    const CeedSize num_bands = map_.num_bands;
+    for (CeedInt k = 0; k < num_bands; k++) {
+      const CeedInt m = n + k - map_.num_bands / 2;
+      if (m >= 0 && m < map_.elem_size) f(m, bands_[(n * num_bands + k) * step_]);
+    }
+  }
+
+ private:
+  const CeedElementMap &map_;
+  CeedInt step_;  ///< between entries of the element in a table
+  CeedSize comp_stride_;
+  CeedSize start_ = 0;
+  CeedInt scale_ = 1;
+  const CeedInt *nodes_ = nullptr;  ///< NULL: strided
+  const CeedInt8 *bands_ = nullptr;
+};
+
+/// Calls f(i, n, c) for component c of each node n of an element, the value i of its array.
+template <typename F>
+void for_each_value(CeedInt num_comp, CeedInt nodes, CeedInt stride, F &&f) {
+  CeedSize i = 0;
+  for (CeedInt c = 0; c < num_comp; c++) {
+    for (CeedInt n = 0; n < nodes; n++, i += stride) f(i, n, c);
+  }
 }
 
-void ElementMap::gather(CeedInt e, const CeedScalar *l, CeedScalar *values) const {
-  const CeedInt nodes = num_nodes(e);
-  for (CeedInt c = 0; c < num_comp_; c++) {
-    for (CeedInt n = 0; n < nodes; n++) values[static_cast<CeedSize>(c) * nodes + n] = l[entry(e, n, c)];
+}  // namespace
+
+void ElementMap::gather(CeedInt e, const CeedScalar *l, CeedScalar *values, CeedInt stride) const {
+  const Element element(*map_, e);
+  if (map_->num_bands == 0) {
+    for_each_value(map_->num_comp, num_nodes(e), stride,
+                   [&](CeedSize i, CeedInt n, CeedInt c) { values[i] = l[element.entry(n, c)]; });
+    return;
   }
+  for_each_value(map_->num_comp, num_nodes(e), stride, [&](CeedSize i, CeedInt n, CeedInt c) {
+    values[i] = 0;
+    element.for_row(n, [&](CeedInt m, CeedScalar t) { values[i] += t * l[element.entry(m, c)]; });
+  });
 }
 
-void ElementMap::scatter_add(CeedInt e, const CeedScalar *values, CeedScalar *l) const {
-  const CeedInt nodes = num_nodes(e);
-  for (CeedInt c = 0; c < num_comp_; c++) {
-    for (CeedInt n = 0; n < nodes; n++) l[entry(e, n, c)] += values[static_cast<CeedSize>(c) * nodes + n];
+void ElementMap::scatter_add(CeedInt e, const CeedScalar *values, CeedScalar *l, CeedInt stride) const {
+  const Element element(*map_, e);
+  if (map_->num_bands == 0) {
+    for_each_value(map_->num_comp, num_nodes(e), stride,
+                   [&](CeedSize i, CeedInt n, CeedInt c) { l[element.entry(n, c)] += values[i]; });
+    return;
   }
+  for_each_value(map_->num_comp, num_nodes(e), stride, [&](CeedSize i, CeedInt n, CeedInt c) {
+    element.for_row(n, [&](CeedInt m, CeedScalar t) { l[element.entry(m, c)] += t * values[i]; });
+  });
 }
 
 namespace {
@@ -60,29 +105,22 @@ int with_arrays(CeedTransposeMode t_mode, CeedVector u, CeedVector ru, F &&f) {
   return CEED_ERROR_SUCCESS;
 }
 
-int apply(CeedElemRestriction rstr, CeedTransposeMode t_mode, CeedVector u, CeedVector ru) {
+int apply(CeedElemRestriction rstr, CeedInt first_block, CeedInt num_block, CeedTransposeMode t_mode, CeedVector u,
+          CeedVector ru) {
   ElementMap map;
   CeedCallBackend(ElementMap::create(rstr, &map));
+  const CeedInt B = map.facts().block_size, num_elem = map.facts().num_elem;
   return with_arrays(t_mode, u, ru, [&](const CeedScalar *input, CeedScalar *output) {
-    for (CeedInt e = 0; e < map.num_elem(); e++) {
-      if (t_mode == CEED_TRANSPOSE) {
-        map.scatter_add(e, input + map.first_entry(e), output);
-      } else {
-        map.gather(e, input, output + map.first_entry(e));
+    for (CeedInt block = first_block; block < first_block + num_block; block++) {
+      const CeedSize start = map.first_entry(block) - map.first_entry(first_block);
+      for (CeedInt j = 0; j < B; j++) {
+        const CeedInt e = block * B + j;
+        if (t_mode == CEED_NOTRANSPOSE) {
+          map.gather(std::min(e, num_elem - 1), input, output + start + j, B);
+        } else if (e < num_elem) {
+          map.scatter_add(e, input + start + j, output, B);
+        }
       }
-    }
-  });
-}
-
-int apply_at_points_in_element(CeedElemRestriction rstr, CeedInt elem, CeedTransposeMode t_mode, CeedVector u,
-                               CeedVector ru) {
-  ElementMap map;
-  CeedCallBackend(ElementMap::create(rstr, &map));
-  return with_arrays(t_mode, u, ru, [&](const CeedScalar *input, CeedScalar *output) {
-    if (t_mode == CEED_TRANSPOSE) {
-      map.scatter_add(elem, input, output);
-    } else {
-      map.gather(elem, input, output);
     }
   });
 }
@@ -92,7 +130,6 @@ int apply_at_points_in_element(CeedElemRestriction rstr, CeedInt elem, CeedTrans
 void fill_restriction_ops(CeedElemRestrictionOps &ops) {
   ops = {};
   ops.apply = apply;
-  ops.apply_at_points_in_element = apply_at_points_in_element;
 }
 
 }  // namespace hg::ref

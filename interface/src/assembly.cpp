@@ -19,24 +19,6 @@ using hg::text;
 /// Elements whose assembled QFunctions are held at once: bounds the memory of diagonal and full assembly.
 constexpr CeedSize chunk_values = CeedSize{1} << 20;
 
-/// Node n, component c of element e in the L-vector.
-CeedSize l_index(const CeedElemRestriction_private &rstr, CeedInt e, CeedInt n, CeedInt c) {
-  switch (rstr.type) {
-    case CEED_RESTRICTION_STRIDED:
-      return static_cast<CeedSize>(n) * rstr.strides[0] + static_cast<CeedSize>(c) * rstr.strides[1] +
-             static_cast<CeedSize>(e) * rstr.strides[2];
-    case CEED_RESTRICTION_POINTS:
-      return static_cast<CeedSize>(hg::points_in_element(rstr, e).points[n]) * rstr.num_comp + c;
-    default:
-      return rstr.offsets[static_cast<CeedSize>(e) * rstr.elem_size + n] + static_cast<CeedSize>(c) * rstr.comp_stride;
-  }
-}
-
-/// Nodes of element e: for restrictions at points, its points.
-CeedInt num_nodes(const CeedElemRestriction_private &rstr, CeedInt e) {
-  return rstr.is_points() ? hg::points_in_element(rstr, e).size : rstr.elem_size;
-}
-
 /// Points of element e.
 CeedInt num_points(const CeedProgram &program, CeedInt e) {
   return program.at_points ? hg::points_in_element(*program.points_rstr, e).size : program.num_qpts;
@@ -60,7 +42,7 @@ class Table {
 
   /// Makes the table that of element e; x_ref: coordinates of all points, NULL at quadrature points.
   void move_to(CeedInt e, const CeedScalar *x_ref) {
-    P_ = num_nodes(rstr_, e);
+    P_ = rstr_.num_nodes(e);
     Q_ = num_points(program_, e);
     if (program_.at_points) tabulate_points(e, x_ref);
   }
@@ -309,7 +291,7 @@ void add_diagonal(CeedOperator_private &op, CeedVector diagonal) {
       element.assign(static_cast<std::size_t>(P) * pair.trial.num_comp(), 0.0);
       add_element_diagonal(D, Q, pair.trial, pair.test, element.data());
       for (CeedInt c = 0; c < pair.trial.num_comp(); c++) {
-        for (CeedInt n = 0; n < P; n++) array[l_index(pair.trial.rstr(), e, n, c)] += element[c * P + n];
+        for (CeedInt n = 0; n < P; n++) array[pair.trial.rstr().place(e, n, c)] += element[c * P + n];
       }
     }
   });
@@ -326,7 +308,7 @@ CeedSize num_entries(CeedOperator_private &op) {
       return;
     }
     for (CeedInt e = 0; e < program.num_elem; e++) {
-      count += static_cast<CeedSize>(num_nodes(in, e)) * in.num_comp * num_nodes(out, e) * out.num_comp;
+      count += static_cast<CeedSize>(in.num_nodes(e)) * in.num_comp * out.num_nodes(e) * out.num_comp;
     }
   });
   return count;
@@ -359,14 +341,14 @@ void symbolic(CeedOperator_private &op, CeedInt *rows, CeedInt *cols, CeedSize &
   for_each_pair(program, [&](CeedInt s, CeedInt t) {
     const auto &in = *program.sources[s].rstr, &out = *program.sinks[t].rstr;
     for (CeedInt e = 0; e < program.num_elem; e++) {
-      const CeedInt P = num_nodes(in, e), M = num_nodes(out, e);
+      const CeedInt P = in.num_nodes(e), M = out.num_nodes(e);
       for (CeedInt r = 0; r < out.num_comp; r++) {
         for (CeedInt m = 0; m < M; m++) {
-          const CeedInt row = static_cast<CeedInt>(l_index(out, e, m, r));
+          const CeedInt row = static_cast<CeedInt>(out.place(e, m, r));
           for (CeedInt c = 0; c < in.num_comp; c++) {
             for (CeedInt n = 0; n < P; n++, k++) {
               rows[k] = row;
-              cols[k] = static_cast<CeedInt>(l_index(in, e, n, c));
+              cols[k] = static_cast<CeedInt>(in.place(e, n, c));
             }
           }
         }

@@ -7,7 +7,7 @@
 
 #include "error.hpp"
 
-/// Base of every handle. Handles are cast to CeedObject, so this is the first and only base of each object.
+/// Base of every handle. Handles are cast to CeedObject, so this is the first base of each object.
 struct CeedObject_private {
   CeedObject_private() = default;
   CeedObject_private(const CeedObject_private &) = delete;

@@ -76,7 +76,6 @@ void require_complete(const CeedBackendOps &ops, const CeedBackend &backend) {
       {ops.vector.has_valid_array, "vector.has_valid_array"},
       {ops.vector.has_borrowed_array, "vector.has_borrowed_array"},
       {ops.restriction.apply, "restriction.apply"},
-      {ops.restriction.apply_at_points_in_element, "restriction.apply_at_points_in_element"},
       {ops.basis.apply, "basis.apply"},
       {ops.basis.apply_at_points, "basis.apply_at_points"},
       {ops.qfunction.apply, "qfunction.apply"},

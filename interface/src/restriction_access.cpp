@@ -37,7 +37,7 @@ void require_elem(const CeedElemRestriction_private &r, CeedInt elem, hg::Where 
 /// The smallest number of points of an element; 0 without elements.
 CeedInt min_points(const CeedElemRestriction_private &r) {
   CeedInt least = r.elem_size;
-  for (CeedInt e = 0; e < r.num_elem; e++) least = std::min(least, hg::points_in_element(r, e).size);
+  for (CeedInt e = 0; e < r.num_elem; e++) least = std::min(least, r.num_nodes(e));
   return least;
 }
 
@@ -45,18 +45,8 @@ CeedInt min_points(const CeedElemRestriction_private &r) {
 template <typename F>
 void for_each_entry(const CeedElemRestriction_private &r, F &&f) {
   for (CeedInt e = 0; e < r.num_elem; e++) {
-    const auto points = r.is_points() ? hg::points_in_element(r, e) : hg::PointRange{nullptr, r.elem_size};
-    for (CeedInt n = 0; n < points.size; n++) {
-      for (CeedInt c = 0; c < r.num_comp; c++) {
-        if (r.is_points()) {
-          f(static_cast<CeedSize>(points.points[n]) * r.num_comp + c);
-        } else if (r.is_strided()) {
-          f(static_cast<CeedSize>(n) * r.strides[0] + static_cast<CeedSize>(c) * r.strides[1] +
-            static_cast<CeedSize>(e) * r.strides[2]);
-        } else {
-          f(r.offsets[static_cast<CeedSize>(e) * r.elem_size + n] + static_cast<CeedSize>(c) * r.comp_stride);
-        }
-      }
+    for (CeedInt n = 0; n < r.num_nodes(e); n++) {
+      for (CeedInt c = 0; c < r.num_comp; c++) f(r.place(e, n, c));
     }
   }
 }
@@ -75,12 +65,15 @@ CeedElemRestriction_private &deref_restriction(CeedElemRestriction rstr, hg::Whe
 bool equal(const CeedElemRestriction_private &a, const CeedElemRestriction_private &b) {
   if (&a == &b) return true;
   if (a.is_sentinel || b.is_sentinel) return false;
-  if (a.type != b.type || a.num_elem != b.num_elem || a.elem_size != b.elem_size || a.num_points != b.num_points ||
-      a.num_comp != b.num_comp || a.l_size != b.l_size || a.e_size != b.e_size || a.strides != b.strides) {
+  if (a.type != b.type || a.block_size != b.block_size || a.num_bands != b.num_bands || a.num_elem != b.num_elem ||
+      a.elem_size != b.elem_size || a.num_points != b.num_points || a.num_comp != b.num_comp || a.l_size != b.l_size ||
+      a.e_size != b.e_size || !std::equal(a.strides, a.strides + 3, b.strides)) {
     return false;
   }
   if (a.num_comp > 1 && a.comp_stride != b.comp_stride) return false;
-  return a.offsets == b.offsets || std::equal(a.offsets, a.offsets + a.num_offsets(), b.offsets);
+  const auto same = [](const auto *x, const auto *y, CeedSize size) { return x == y || std::equal(x, x + size, y); };
+  return same(a.offsets, b.offsets, a.num_offsets()) &&
+         same(a.bands, b.bands, a.table_size(static_cast<CeedSize>(a.num_bands) * a.elem_size));
 }
 
 PointRange points_in_element(const CeedElemRestriction_private &rstr, CeedInt elem) {
@@ -97,7 +90,19 @@ CeedSize CeedElemRestriction_private::num_offsets() const {
     case CEED_RESTRICTION_POINTS:
       return offsets != nullptr ? offsets[num_elem] : 0;
     default:
-      return static_cast<CeedSize>(num_elem) * elem_size;
+      return table_size(elem_size);
+  }
+}
+
+CeedSize CeedElemRestriction_private::place(CeedInt e, CeedInt n, CeedInt c) const {
+  switch (type) {
+    case CEED_RESTRICTION_STRIDED:
+      return static_cast<CeedSize>(n) * strides[0] + static_cast<CeedSize>(c) * strides[1] +
+             static_cast<CeedSize>(e) * strides[2];
+    case CEED_RESTRICTION_POINTS:
+      return static_cast<CeedSize>(offsets[offsets[e] + n]) * num_comp + c;
+    default:
+      return offsets[table_index(e, n, elem_size)] + static_cast<CeedSize>(c) * comp_stride;
   }
 }
 
@@ -107,7 +112,7 @@ void CeedElemRestriction_private::view(FILE *stream) const {
   if (is_points()) {
     std::fprintf(stream, "a maximum of %" CeedInt_FMT " points on an element\n", elem_size);
   } else if (is_strided()) {
-    const std::array<CeedInt, 3> shown = has_backend_strides ? std::array<CeedInt, 3>{} : strides;
+    const CeedInt *shown = has_backend_strides ? CEED_STRIDES_BACKEND : strides;
     std::fprintf(stream,
                  "%" CeedInt_FMT " nodes each and strides [%" CeedInt_FMT ", %" CeedInt_FMT ", %" CeedInt_FMT "]\n",
                  elem_size, shown[0], shown[1], shown[2]);
@@ -161,11 +166,11 @@ int CeedElemRestrictionGetNumComponents(CeedElemRestriction rstr, CeedInt *num_c
 }
 
 int CeedElemRestrictionGetNumBlocks(CeedElemRestriction rstr, CeedInt *num_block) {
-  return get(rstr, num_block, [](auto &r) { return r.num_elem; });
+  return get(rstr, num_block, [](auto &r) { return r.num_block(); });
 }
 
 int CeedElemRestrictionGetBlockSize(CeedElemRestriction rstr, CeedInt *block_size) {
-  return get(rstr, block_size, [](auto &) { return 1; });
+  return get(rstr, block_size, [](auto &r) { return r.block_size; });
 }
 
 int CeedElemRestrictionGetNumPoints(CeedElemRestriction rstr, CeedInt *num_points) {
@@ -181,7 +186,7 @@ int CeedElemRestrictionGetNumPointsInElement(CeedElemRestriction rstr, CeedInt e
     auto &r = hg::deref_restriction(rstr);
     require_points(r);
     require_elem(r, elem);
-    *num_points = hg::points_in_element(r, elem).size;
+    *num_points = r.num_nodes(elem);
   });
 }
 
@@ -244,7 +249,7 @@ int CeedElemRestrictionGetStrides(CeedElemRestriction rstr, CeedInt strides[3]) 
   return hg::guard(hg::ceed_of(rstr), [&] {
     auto &r = hg::deref_restriction(rstr);
     require_strided(r);
-    std::copy_n(r.has_backend_strides ? CEED_STRIDES_BACKEND : r.strides.data(), 3, strides);
+    std::copy_n(r.has_backend_strides ? CEED_STRIDES_BACKEND : r.strides, 3, strides);
   });
 }
 
@@ -277,16 +282,20 @@ int CeedElemRestrictionRestoreOffsets(CeedElemRestriction rstr, const CeedInt **
   });
 }
 
+int CeedElemRestrictionGetElementMap(CeedElemRestriction rstr, const CeedElementMap **map) {
+  return hg::guard(hg::ceed_of(rstr), [&] { *map = &hg::deref_restriction(rstr); });
+}
+
 int CeedElemRestrictionGetLLayout(CeedElemRestriction rstr, CeedInt layout[3]) {
   return hg::guard(hg::ceed_of(rstr), [&] {
     auto &r = hg::deref_restriction(rstr);
     require_strided(r);
-    std::copy_n(r.strides.data(), 3, layout);
+    std::copy_n(r.strides, 3, layout);
   });
 }
 
 int CeedElemRestrictionGetELayout(CeedElemRestriction rstr, CeedInt layout[3]) {
-  return hg::guard(hg::ceed_of(rstr), [&] { std::copy_n(hg::deref_restriction(rstr).e_layout.data(), 3, layout); });
+  return hg::guard(hg::ceed_of(rstr), [&] { std::copy_n(hg::deref_restriction(rstr).e_layout, 3, layout); });
 }
 
 int CeedElemRestrictionGetAtPointsElementOffset(CeedElemRestriction rstr, CeedInt elem, CeedSize *elem_offset) {
@@ -307,6 +316,10 @@ int CeedElemRestrictionSetData(CeedElemRestriction rstr, void *data) {
 }
 
 int CeedElemRestrictionGetFlopsEstimate(CeedElemRestriction rstr, CeedTransposeMode t_mode, CeedSize *flops) {
-  // Gathering copies; scattering adds each entry of the E-vector once.
-  return get(rstr, flops, [&](auto &r) -> CeedSize { return t_mode == CEED_TRANSPOSE ? r.e_size : 0; });
+  // A band multiplies each entry of the E-vector, and all but the first add to it; scattering adds it once for each
+  // band.
+  return get(rstr, flops, [&](auto &r) -> CeedSize {
+    const CeedSize adds = t_mode == CEED_TRANSPOSE ? std::max(r.num_bands, 1) : std::max(r.num_bands - 1, 0);
+    return r.e_size * (r.num_bands + adds);
+  });
 }

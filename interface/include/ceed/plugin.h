@@ -46,13 +46,42 @@ typedef struct {
   int (*set_value_strided)(CeedVector vec, CeedSize start, CeedSize stop, CeedSize step, CeedScalar value);  ///< optional
 } CeedVectorOps;
 
-/// Restrictions. The core keeps the offsets on the host and has checked their range.
+/// What a restriction does. Component c of element e of R u is T_e G_(e,c) u: G_(e,c) picks an entry of the L-vector for
+/// each node, T_e, the orientation of the element, turns them; it is the same for all components. R^T adds G^T T^T.
+///
+/// Component c of node n of element e is this entry of the L-vector:
+///   offsets[i] + c*comp_stride, i the place of n among the elem_size nodes of element e (see below);
+///   n*strides[0] + c*strides[1] + e*strides[2] where `offsets` is NULL;
+///   offsets[offsets[e] + n]*num_comp + c at points.
+///
+/// Elements come in blocks of B = block_size, 1 unless the restriction was made as a blocked one. Entry k of the s that
+/// each element has in a table over elements, or in an E-vector that the backend has not laid out otherwise, is at
+///   ((e/B)*s + k)*B + e%B,
+/// and the last block repeats the last element until it is full; what repeats is written by R and not read by R^T.
+/// At points an E-vector is ragged: (point, component), point fastest, for one element after another.
 typedef struct {
-  int (*create)(CeedElemRestriction rstr);   ///< optional
+  CeedRestrictionType type;
+  CeedInt num_elem, elem_size, num_comp;  ///< at points elem_size is the largest number of points of an element
+  CeedInt block_size;
+  CeedInt comp_stride;    ///< 0 for strided ones
+  CeedInt strides[3];     ///< (node, component, element) of strided ones, also where the backend chose them
+  CeedInt e_layout[3];    ///< (node, component, element) of E-vectors; {1, 0, 0} where they are ragged
+  CeedSize l_size, e_size;
+  const CeedInt *offsets;
+  CeedInt num_bands;      ///< of T_e. 0: it is the identity; 1: it is diagonal, of signs; 3: it is tridiagonal
+  const CeedInt8 *bands;  ///< num_bands*elem_size entries for each element: T_e(n, n + k - num_bands/2) is entry
+                          ///< n*num_bands + k; what would lie outside of T_e may have any value
+} CeedElementMap;
+
+/// Restrictions. The core keeps the tables on the host and has checked their range.
+typedef struct {
+  int (*create)(CeedElemRestriction rstr);   ///< optional; may set the layout of E-vectors, and L-vectors if strided
   int (*destroy)(CeedElemRestriction rstr);  ///< optional
-  int (*apply)(CeedElemRestriction rstr, CeedTransposeMode t_mode, CeedVector u, CeedVector ru);
-  int (*apply_at_points_in_element)(CeedElemRestriction rstr, CeedInt elem, CeedTransposeMode t_mode, CeedVector u,
-                                    CeedVector ru);
+  /// The blocks [first_block, first_block + num_block), of which the E-vector holds nothing else. At points, as without
+  /// blocks, each element is a block; the vector of a single one holds component c of its point p at [c*num_points + p].
+  /// CEED_NOTRANSPOSE writes ru, CEED_TRANSPOSE adds to it; what of ru does not belong to the blocks stays.
+  int (*apply)(CeedElemRestriction rstr, CeedInt first_block, CeedInt num_block, CeedTransposeMode t_mode, CeedVector u,
+               CeedVector ru);
 } CeedElemRestrictionOps;
 
 /// Bases. The core keeps the matrices on the host: factors of one direction for tensor products
@@ -209,6 +238,8 @@ typedef struct {
 CEED_EXTERN int CeedPluginGetList(size_t *num_plugins, CeedPluginInfo **plugins);
 /// The tables that `ceed` works with: its ancestors' and its own. They live as long as `ceed`.
 CEED_EXTERN int CeedGetBackendOps(Ceed ceed, const CeedBackendOps **ops);
+/// The map of a restriction; valid as long as the restriction lives.
+CEED_EXTERN int CeedElemRestrictionGetElementMap(CeedElemRestriction rstr, const CeedElementMap **map);
 /// The lowered operator; valid until the operator is destroyed or its points are set again. `op` is not composite.
 CEED_EXTERN int CeedOperatorGetProgram(CeedOperator op, const CeedProgram **program);
 
