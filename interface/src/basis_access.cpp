@@ -65,7 +65,7 @@ namespace hg {
 
 void require_tensor(const CeedBasis_private &b, const char *what) {
   require(b.is_tensor, CEED_ERROR_MINOR,
-              [&] { return text("CeedBasis: %s was asked of a basis without tensor product", what); });
+          [&] { return text("CeedBasis: %s was asked of a basis without tensor product", what); });
 }
 
 CeedBasis_private &deref_basis(CeedBasis basis, Where where) {
@@ -167,7 +167,9 @@ void CeedBasis_private::view(FILE *stream) const {
     print_table(stream, indent, "grad1d:", Q_1d, P_1d, grad_1d);
     return;
   }
-  const char *derivative_name = fe_space == CEED_FE_SPACE_H1 ? "grad:" : fe_space == CEED_FE_SPACE_HDIV ? "div:" : "curl:";
+  const char *derivative_name = fe_space == CEED_FE_SPACE_H1     ? "grad:"
+                                : fe_space == CEED_FE_SPACE_HDIV ? "div:"
+                                                                 : "curl:";
   print_table(stream, indent, "qref:", 1, dim * Q, q_ref);
   print_table(stream, indent, "qweight:", 1, Q, q_weight);
   const auto rows = [&](const std::vector<CeedScalar> &matrix) { return static_cast<CeedSize>(matrix.size()) / P; };

@@ -98,8 +98,7 @@ Ref<CeedBasis_private> make_tensor_basis(Ceed ceed, CeedInt dim, CeedInt num_com
   require_range("num_comp", num_comp, 1, any);
   require_range("the number of nodes in a direction", P_1d, 1, most);
   require_range("the number of quadrature points in a direction", Q_1d, 1, most);
-  auto basis =
-      make(ceed, tensor_topology(dim), dim, num_comp, CeedIntPow(P_1d, dim), CeedIntPow(Q_1d, dim));
+  auto basis = make(ceed, tensor_topology(dim), dim, num_comp, CeedIntPow(P_1d, dim), CeedIntPow(Q_1d, dim));
   basis->P_1d = P_1d;
   basis->Q_1d = Q_1d;
   return basis;
@@ -108,8 +107,8 @@ Ref<CeedBasis_private> make_tensor_basis(Ceed ceed, CeedInt dim, CeedInt num_com
 Ref<CeedBasis_private> make_basis(Ceed ceed, CeedFESpace space, CeedElemTopology topology, CeedInt num_comp, CeedInt P,
                                   CeedInt Q) {
   deref(ceed, "Ceed");
-  constexpr CeedElemTopology topologies[] = {CEED_TOPOLOGY_LINE,    CEED_TOPOLOGY_TRIANGLE, CEED_TOPOLOGY_QUAD,
-                                             CEED_TOPOLOGY_TET,     CEED_TOPOLOGY_PYRAMID,  CEED_TOPOLOGY_PRISM,
+  constexpr CeedElemTopology topologies[] = {CEED_TOPOLOGY_LINE, CEED_TOPOLOGY_TRIANGLE, CEED_TOPOLOGY_QUAD,
+                                             CEED_TOPOLOGY_TET,  CEED_TOPOLOGY_PYRAMID,  CEED_TOPOLOGY_PRISM,
                                              CEED_TOPOLOGY_HEX};
   require(std::find(std::begin(topologies), std::end(topologies), topology) != std::end(topologies),
           CEED_ERROR_DIMENSION, [&] {
@@ -186,7 +185,6 @@ int CeedBasisCreateTensorH1(Ceed ceed, CeedInt dim, CeedInt num_comp, CeedInt P_
     hg::hand_out(std::move(b), basis);
   });
 }
-
 
 int CeedBasisCreateH1(Ceed ceed, CeedElemTopology topo, CeedInt num_comp, CeedInt num_nodes, CeedInt nqpts,
                       const CeedScalar *interp, const CeedScalar *grad, const CeedScalar *q_ref,

@@ -44,9 +44,10 @@ std::vector<CeedScalar> chebyshev_coefficients(const std::vector<CeedScalar> &po
 
 void require_polynomial(const CeedBasis_private &basis) {
   require(basis.is_tensor, CEED_ERROR_UNSUPPORTED, [&] {
-    return text("CeedBasis: this basis in a %s has no tensor product: it is known at its quadrature points alone, and "
-                "cannot be evaluated at arbitrary points",
-                CeedFESpaces[basis.fe_space]);
+    return text(
+        "CeedBasis: this basis in a %s has no tensor product: it is known at its quadrature points alone, and "
+        "cannot be evaluated at arbitrary points",
+        CeedFESpaces[basis.fe_space]);
   });
   require(!basis.chebyshev_1d.empty(), CEED_ERROR_UNSUPPORTED, [&] {
     return text(

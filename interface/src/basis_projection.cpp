@@ -9,8 +9,8 @@ constexpr const char *interpolation = "CeedBasis: interpolation of basis_to";
 
 /// interp_to^+ A for each of the `slabs` matrices A, rows by P_from, that lie one after another in `a`; rows is the
 /// number of rows of interp_to. `inverse` is P_to by rows.
-std::vector<CeedScalar> project(const std::vector<CeedScalar> &inverse, const std::vector<CeedScalar> &a,
-                                CeedInt P_to, CeedInt P_from) {
+std::vector<CeedScalar> project(const std::vector<CeedScalar> &inverse, const std::vector<CeedScalar> &a, CeedInt P_to,
+                                CeedInt P_from) {
   const auto rows = static_cast<CeedInt>(inverse.size() / P_to);
   const std::size_t slab = static_cast<std::size_t>(rows) * P_from;
   std::vector<CeedScalar> projected;

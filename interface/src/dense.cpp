@@ -215,9 +215,8 @@ void require_matrix(const void *argument, const char *what) {
 }
 
 void require_size(CeedInt size, const char *what) {
-  hg::require(size >= 1, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("Dense algebra: %s is %" CeedInt_FMT "; expected 1 or more", what, size);
-  });
+  hg::require(size >= 1, CEED_ERROR_DIMENSION,
+              [&] { return hg::text("Dense algebra: %s is %" CeedInt_FMT "; expected 1 or more", what, size); });
 }
 
 std::span<const CeedScalar> square(const CeedScalar *a, CeedInt n) {
@@ -235,8 +234,8 @@ int CeedMatrixMatrixMultiply(Ceed ceed, const CeedScalar *mat_A, const CeedScala
     require_matrix(mat_A, "mat_A (m by kk)");
     require_matrix(mat_B, "mat_B (kk by n)");
     require_matrix(mat_C, "mat_C (m by n)");
-    const auto c = hg::multiply({mat_A, static_cast<std::size_t>(m) * kk}, {mat_B, static_cast<std::size_t>(kk) * n}, m,
-                                kk, n);
+    const auto c =
+        hg::multiply({mat_A, static_cast<std::size_t>(m) * kk}, {mat_B, static_cast<std::size_t>(kk) * n}, m, kk, n);
     std::copy(c.begin(), c.end(), mat_C);
   });
 }
