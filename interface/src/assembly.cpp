@@ -45,6 +45,7 @@ class Table {
     P_ = rstr_.num_nodes(e);
     Q_ = num_points(program_, e);
     if (program_.at_points) tabulate_points(e, x_ref);
+    if (rstr_.num_bands > 0) turn(e);
   }
 
   CeedInt P() const { return P_; }
@@ -55,7 +56,9 @@ class Table {
   /// Active value of component c in row k.
   CeedInt value(CeedInt k, CeedInt c) const { return first_values_[k] + c; }
   /// Row k at point q: P values.
-  const CeedScalar *row(CeedInt k, CeedInt q) const { return &table_[(static_cast<CeedSize>(q) * num_rows() + k) * P_]; }
+  const CeedScalar *row(CeedInt k, CeedInt q) const {
+    return &(rstr_.num_bands > 0 ? turned_ : table_)[(static_cast<CeedSize>(q) * num_rows() + k) * P_];
+  }
   bool is_same_space_as(const Table &other) const { return hg::equal(rstr_, other.rstr_); }
 
  private:
@@ -107,13 +110,23 @@ class Table {
     }
   }
 
+  /// B T_e: the functions of the unknowns in the L-vector, whose orientation the element does not share.
+  void turn(CeedInt e) {
+    turned_.assign(table_.size(), 0.0);
+    for (std::size_t row = 0; row < table_.size(); row += P_) {
+      for (CeedInt n = 0; n < P_; n++) {
+        rstr_.for_each_turned(e, n, [&](CeedInt m, CeedScalar t) { turned_[row + m] += table_[row + n] * t; });
+      }
+    }
+  }
+
   const CeedProgram &program_;
   const CeedElemRestriction_private &rstr_;
   CeedInt num_comp_;
   std::vector<Field> fields_;
   std::vector<CeedInt> first_values_;
   CeedInt P_ = 0, Q_ = 0;
-  std::vector<CeedScalar> table_;
+  std::vector<CeedScalar> table_, turned_;
 };
 
 /// The matrix of the QFunction at the points of an element, seen from either layout.

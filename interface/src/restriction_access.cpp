@@ -14,6 +14,38 @@ int get(CeedElemRestriction rstr, T *value, Get &&getter, const char *function =
       hg::ceed_of(rstr), [&] { *value = getter(hg::deref(rstr, "CeedElemRestriction")); }, function);
 }
 
+/// Body of the getters of tables: grants read access on the host.
+template <typename T, typename Get>
+int get_array(CeedElemRestriction rstr, CeedMemType mem_type, const T **array, Get &&getter,
+              const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(rstr),
+      [&] {
+        auto &r = hg::deref_restriction(rstr);
+        hg::require_mem_type(*r.ceed, mem_type, function);
+        hg::require(mem_type == CEED_MEM_HOST, CEED_ERROR_UNSUPPORTED,
+                    "CeedElemRestriction: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST");
+        *array = getter(r);
+        r.num_readers++;
+      },
+      function);
+}
+
+template <typename T>
+int restore_array(CeedElemRestriction rstr, const T **array, const char *what,
+                  const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(rstr),
+      [&] {
+        auto &r = hg::deref_restriction(rstr);
+        hg::require(r.num_readers > 0, CEED_ERROR_ACCESS,
+                    [&] { return hg::text("Cannot restore CeedElemRestriction %s, access was not granted", what); });
+        r.num_readers--;
+        *array = nullptr;
+      },
+      function);
+}
+
 void require_points(const CeedElemRestriction_private &r, hg::Where where = hg::Where::current()) {
   hg::require(r.is_points(), CEED_ERROR_INCOMPATIBLE,
               "CeedElemRestriction has no points; expected one made by CeedElemRestrictionCreateAtPoints()", where);
@@ -262,24 +294,28 @@ int CeedElemRestrictionHasBackendStrides(CeedElemRestriction rstr, bool *has_bac
 }
 
 int CeedElemRestrictionGetOffsets(CeedElemRestriction rstr, CeedMemType mem_type, const CeedInt **offsets) {
-  return hg::guard(hg::ceed_of(rstr), [&] {
-    auto &r = hg::deref_restriction(rstr);
-    hg::require_mem_type(*r.ceed, mem_type, "CeedElemRestrictionGetOffsets");
-    hg::require(mem_type == CEED_MEM_HOST, CEED_ERROR_UNSUPPORTED,
-                "CeedElemRestrictionGetOffsets: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST");
-    *offsets = r.offsets;
-    r.num_readers++;
-  });
+  return get_array(rstr, mem_type, offsets, [](auto &r) { return r.offsets; });
 }
 
 int CeedElemRestrictionRestoreOffsets(CeedElemRestriction rstr, const CeedInt **offsets) {
-  return hg::guard(hg::ceed_of(rstr), [&] {
-    auto &r = hg::deref_restriction(rstr);
-    hg::require(r.num_readers > 0, CEED_ERROR_ACCESS,
-                "Cannot restore CeedElemRestriction offsets, access was not granted");
-    r.num_readers--;
-    *offsets = nullptr;
-  });
+  return restore_array(rstr, offsets, "offsets");
+}
+
+int CeedElemRestrictionGetOrientations(CeedElemRestriction rstr, CeedMemType mem_type, const bool **orients) {
+  return get_array(rstr, mem_type, orients, [](auto &r) { return r.orients.data(); });
+}
+
+int CeedElemRestrictionRestoreOrientations(CeedElemRestriction rstr, const bool **orients) {
+  return restore_array(rstr, orients, "orientations");
+}
+
+int CeedElemRestrictionGetCurlOrientations(CeedElemRestriction rstr, CeedMemType mem_type,
+                                           const CeedInt8 **curl_orients) {
+  return get_array(rstr, mem_type, curl_orients, [](auto &r) { return r.num_bands == 3 ? r.bands : nullptr; });
+}
+
+int CeedElemRestrictionRestoreCurlOrientations(CeedElemRestriction rstr, const CeedInt8 **curl_orients) {
+  return restore_array(rstr, curl_orients, "curl-orientations");
 }
 
 int CeedElemRestrictionGetElementMap(CeedElemRestriction rstr, const CeedElementMap **map) {

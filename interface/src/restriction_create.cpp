@@ -198,7 +198,40 @@ struct WithOffsets {
   CeedMemType mem_type;
   CeedCopyMode copy_mode;
   const CeedInt *offsets;
+  const bool *orients = nullptr;           ///< for CEED_RESTRICTION_ORIENTED
+  const CeedInt8 *curl_orients = nullptr;  ///< for CEED_RESTRICTION_CURL_ORIENTED
 };
+
+/// Takes in a sign for each node of each element, true for -1.
+void take_orients(CeedElemRestriction_private &r, const WithOffsets &given, hg::Where where) {
+  require_array(r, given.mem_type, given.copy_mode, given.orients, "orientations", where);
+  const bool *orients = keep_table(r, given.copy_mode, given.orients, r.elem_size, r.orients);
+  const CeedSize size = r.table_size(r.elem_size);
+  auto signs = std::make_unique<CeedInt8[]>(static_cast<std::size_t>(size));
+  std::transform(orients, orients + size, signs.get(), [](bool is_flipped) { return CeedInt8(is_flipped ? -1 : 1); });
+  r.own_bands.keep(std::move(signs));
+  r.num_bands = 1;
+}
+
+/// Takes in a tridiagonal matrix for each element.
+void take_curl_orients(CeedElemRestriction_private &r, const WithOffsets &given, hg::Where where) {
+  require_array(r, given.mem_type, given.copy_mode, given.curl_orients, "curl-orientations", where);
+  const CeedSize per_elem = 3 * static_cast<CeedSize>(r.elem_size);
+  for (CeedSize i = 0; i < r.num_elem * per_elem; i++) {
+    // An unsigned copy holds absolute values.
+    hg::require(
+        given.curl_orients[i] >= -127, CEED_ERROR_DIMENSION,
+        [&] {
+          return hg::text(
+              "CeedElemRestriction: curl-orientation %td of element %td is %d; expected -127 or more, and "
+              "usually -1, 0 or 1",
+              i % per_elem, i / per_elem, given.curl_orients[i]);
+        },
+        where);
+  }
+  keep_table(r, given.copy_mode, given.curl_orients, per_elem, r.own_bands);
+  r.num_bands = 3;
+}
 
 void create(Ceed ceed, const WithOffsets &given, CeedElemRestriction *rstr, hg::Where where = hg::Where::current()) {
   auto created = make(ceed, given.type, given.num_elem, given.num_comp, given.l_size, rstr, where);
@@ -228,8 +261,15 @@ void create(Ceed ceed, const WithOffsets &given, CeedElemRestriction *rstr, hg::
         where);
   }
   r.offsets = keep_table(r, given.copy_mode, given.offsets, given.elem_size, r.own_offsets);
+  if (given.type == CEED_RESTRICTION_ORIENTED) take_orients(r, given, where);
+  if (given.type == CEED_RESTRICTION_CURL_ORIENTED) take_curl_orients(r, given, where);
+  r.bands = r.own_bands.data();
   show_to_backend(r);
-  if (given.copy_mode == CEED_OWN_POINTER) r.own_offsets.adopt(given.offsets);
+  if (given.copy_mode == CEED_OWN_POINTER) {
+    r.own_offsets.adopt(given.offsets);
+    r.orients.adopt(given.orients);
+    r.own_bands.adopt(given.curl_orients);
+  }
   *rstr = created.release();
 }
 
@@ -284,6 +324,46 @@ int CeedElemRestrictionCreate(Ceed ceed, CeedInt num_elem, CeedInt elem_size, Ce
             .mem_type = mem_type,
             .copy_mode = copy_mode,
             .offsets = offsets},
+           rstr);
+  });
+}
+
+int CeedElemRestrictionCreateOriented(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt num_comp,
+                                      CeedInt comp_stride, CeedSize l_size, CeedMemType mem_type,
+                                      CeedCopyMode copy_mode, const CeedInt *offsets, const bool *orients,
+                                      CeedElemRestriction *rstr) {
+  return hg::guard(ceed, [&] {
+    create(ceed,
+           {.type = CEED_RESTRICTION_ORIENTED,
+            .num_elem = num_elem,
+            .elem_size = elem_size,
+            .num_comp = num_comp,
+            .comp_stride = comp_stride,
+            .l_size = l_size,
+            .mem_type = mem_type,
+            .copy_mode = copy_mode,
+            .offsets = offsets,
+            .orients = orients},
+           rstr);
+  });
+}
+
+int CeedElemRestrictionCreateCurlOriented(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt num_comp,
+                                          CeedInt comp_stride, CeedSize l_size, CeedMemType mem_type,
+                                          CeedCopyMode copy_mode, const CeedInt *offsets, const CeedInt8 *curl_orients,
+                                          CeedElemRestriction *rstr) {
+  return hg::guard(ceed, [&] {
+    create(ceed,
+           {.type = CEED_RESTRICTION_CURL_ORIENTED,
+            .num_elem = num_elem,
+            .elem_size = elem_size,
+            .num_comp = num_comp,
+            .comp_stride = comp_stride,
+            .l_size = l_size,
+            .mem_type = mem_type,
+            .copy_mode = copy_mode,
+            .offsets = offsets,
+            .curl_orients = curl_orients},
            rstr);
   });
 }

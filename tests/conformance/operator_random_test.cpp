@@ -1,4 +1,6 @@
 // Random operators at quadrature points and at material points against the oracle.
+#include <algorithm>
+
 #include "backends.hpp"
 #include "oracle/instance.hpp"
 
@@ -26,6 +28,12 @@ class RandomOperator : public BackendTest {
   }
 };
 
+/// The case without orientations: these may add functions that cancel, and rounding is relative to what cancelled.
+Case without_orientations(Case c) {
+  for (Space &space : c.spaces) space.orientation.clear();
+  return c;
+}
+
 /// Passive inputs must be as they were; passive outputs are compared.
 void expect_passive(const Case &c, const Instance &instance, const Outcome &want, CeedScalar tol) {
   for (std::size_t i = 0; i < c.passive.size(); i++) {
@@ -44,7 +52,8 @@ void check_apply(Ceed ceed, const Case &c, Random &random) {
   for (int repeat = 0; repeat < 2; repeat++) {
     const Values in = random.reals(c.input_size());
     const Outcome want = apply(c, in);
-    expect_close(apply(instance, c, in), want.active, tol, "active output");
+    expect_close(apply(instance, c, in), want.active, tol, "active output",
+                 max_norm(hg::test::apply(without_orientations(c), in).active));
     expect_passive(c, instance, want, tol);
   }
 }
@@ -55,6 +64,12 @@ TEST_P(RandomOperator, AppliesAtQuadraturePoints) {
 
 TEST_P(RandomOperator, AppliesAtPoints) {
   for_cases({.at_points = true}, num_seeds, [&](const Case &c, Random &random) { check_apply(ceed, c, random); });
+}
+
+TEST_P(RandomOperator, AppliesWithOrientations) {
+  for_cases({.is_oriented = true}, num_seeds, [&](const Case &c, Random &random) { check_apply(ceed, c, random); });
+  for_cases({.at_points = true, .is_oriented = true}, num_seeds,
+            [&](const Case &c, Random &random) { check_apply(ceed, c, random); });
 }
 
 void check_apply_add(Ceed ceed, const Case &c, Random &random) {
@@ -132,12 +147,13 @@ void check_diagonal(Ceed ceed, const Case &c, Random &random) {
   const Vector diagonal = make_vector(ceed, n, 1e30);
   ok(CeedOperatorLinearAssembleDiagonal(instance.op, diagonal, CEED_REQUEST_IMMEDIATE));
   // Terms of both signs cancel in a diagonal; rounding is relative to the matrix.
-  expect_close(values_of(diagonal), want, tol, "diagonal", max_norm(a));
+  const CeedScalar scale = std::max(max_norm(a), max_norm(matrix(without_orientations(c))));
+  expect_close(values_of(diagonal), want, tol, "diagonal", scale);
   const Values before = random.reals(n);
   set_values(diagonal, before);
   ok(CeedOperatorLinearAssembleAddDiagonal(instance.op, diagonal, CEED_REQUEST_IMMEDIATE));
   for (CeedSize i = 0; i < n; i++) want[i] += before[i];
-  expect_close(values_of(diagonal), want, tol, "added diagonal", max_norm(a));
+  expect_close(values_of(diagonal), want, tol, "added diagonal", scale);
 }
 
 TEST_P(RandomOperator, AssemblesTheDiagonalAtQuadraturePoints) {
@@ -150,11 +166,18 @@ TEST_P(RandomOperator, AssemblesTheDiagonalAtPoints) {
             [&](const Case &c, Random &random) { check_diagonal(ceed, c, random); });
 }
 
+TEST_P(RandomOperator, AssemblesTheDiagonalWithOrientations) {
+  for (const bool at_points : {false, true}) {
+    for_cases({.at_points = at_points, .is_square = true, .max_comp = 4, .is_oriented = true}, num_seeds,
+              [&](const Case &c, Random &random) { check_diagonal(ceed, c, random); });
+  }
+}
+
 void check_matrix(Ceed ceed, const Case &c) {
   const Instance instance(ceed, c);
   const Values want = matrix(c);
   const Values got = dense_from_coordinates(instance.op, ceed, c.output_size(), c.input_size());
-  expect_close(got, want, tolerance(num_terms(c)), "assembled matrix");
+  expect_close(got, want, tolerance(num_terms(c)), "assembled matrix", max_norm(matrix(without_orientations(c))));
 }
 
 TEST_P(RandomOperator, AssemblesTheMatrixAtQuadraturePoints) {
@@ -164,6 +187,13 @@ TEST_P(RandomOperator, AssemblesTheMatrixAtQuadraturePoints) {
 TEST_P(RandomOperator, AssemblesTheMatrixAtPoints) {
   for_cases({.at_points = true, .is_square = true, .max_comp = 3}, num_seeds,
             [&](const Case &c, Random &) { check_matrix(ceed, c); });
+}
+
+TEST_P(RandomOperator, AssemblesTheMatrixWithOrientations) {
+  for (const bool at_points : {false, true}) {
+    for_cases({.at_points = at_points, .is_square = true, .max_comp = 3, .is_oriented = true}, num_seeds,
+              [&](const Case &c, Random &) { check_matrix(ceed, c); });
+  }
 }
 
 TEST_P(RandomOperator, SaysItsSizes) {

@@ -83,6 +83,13 @@ CEED_EXTERN int CeedElemRestrictionHasBackendStrides(CeedElemRestriction rstr, b
 /// Read access to the offsets; destroying the restriction before Restore is an error.
 CEED_EXTERN int CeedElemRestrictionGetOffsets(CeedElemRestriction rstr, CeedMemType mem_type, const CeedInt **offsets);
 CEED_EXTERN int CeedElemRestrictionRestoreOffsets(CeedElemRestriction rstr, const CeedInt **offsets);
+/// Read access to the signs of an oriented restriction and to the matrices of a curl-oriented one; NULL where it is not
+/// one of these.
+CEED_EXTERN int CeedElemRestrictionGetOrientations(CeedElemRestriction rstr, CeedMemType mem_type, const bool **orients);
+CEED_EXTERN int CeedElemRestrictionRestoreOrientations(CeedElemRestriction rstr, const bool **orients);
+CEED_EXTERN int CeedElemRestrictionGetCurlOrientations(CeedElemRestriction rstr, CeedMemType mem_type,
+                                                       const CeedInt8 **curl_orients);
+CEED_EXTERN int CeedElemRestrictionRestoreCurlOrientations(CeedElemRestriction rstr, const CeedInt8 **curl_orients);
 /// Layout (node, component, element) of the L-vector (strided ones) and of the E-vector; {1, 0, 0} for an E-vector at
 /// points, where the rest varies: see CeedElemRestrictionGetAtPointsElementOffset().
 CEED_EXTERN int CeedElemRestrictionGetLLayout(CeedElemRestriction rstr, CeedInt layout[3]);

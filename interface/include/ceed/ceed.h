@@ -238,6 +238,21 @@ CEED_EXTERN const CeedInt CEED_STRIDES_BACKEND[3];
 CEED_EXTERN int CeedElemRestrictionCreate(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt num_comp,
                                           CeedInt comp_stride, CeedSize l_size, CeedMemType mem_type,
                                           CeedCopyMode copy_mode, const CeedInt *offsets, CeedElemRestriction *rstr);
+/// The same with a sign for each node, all components alike: orients[n + e*elem_size] is true where the element has the
+/// opposite direction, as with the fluxes of H(div). `orients` is treated as `offsets` is.
+CEED_EXTERN int CeedElemRestrictionCreateOriented(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt num_comp,
+                                                  CeedInt comp_stride, CeedSize l_size, CeedMemType mem_type,
+                                                  CeedCopyMode copy_mode, const CeedInt *offsets, const bool *orients,
+                                                  CeedElemRestriction *rstr);
+/// The same with a tridiagonal matrix T for each element, all components alike, as tangents on the faces of H(curl)
+/// need: the element's values are T times those that the offsets pick, and T^T goes the other way. T(n,n-1), T(n,n),
+/// T(n,n+1) are curl_orients[3*(n + e*elem_size) + 0, 1, 2]; the two outside of T have no meaning. `curl_orients` is
+/// treated as `offsets` is.
+CEED_EXTERN int CeedElemRestrictionCreateCurlOriented(Ceed ceed, CeedInt num_elem, CeedInt elem_size,
+                                                      CeedInt num_comp, CeedInt comp_stride, CeedSize l_size,
+                                                      CeedMemType mem_type, CeedCopyMode copy_mode,
+                                                      const CeedInt *offsets, const CeedInt8 *curl_orients,
+                                                      CeedElemRestriction *rstr);
 /// Component c of node n in element e is at n*strides[0] + c*strides[1] + e*strides[2].
 CEED_EXTERN int CeedElemRestrictionCreateStrided(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt num_comp,
                                                  CeedSize l_size, const CeedInt strides[3], CeedElemRestriction *rstr);
@@ -277,7 +292,7 @@ CEED_EXTERN int CeedElemRestrictionGetEVectorSize(CeedElemRestriction rstr, Ceed
 CEED_EXTERN int CeedElemRestrictionGetNumComponents(CeedElemRestriction rstr, CeedInt *num_comp);
 CEED_EXTERN int CeedElemRestrictionGetNumBlocks(CeedElemRestriction rstr, CeedInt *num_block);
 CEED_EXTERN int CeedElemRestrictionGetBlockSize(CeedElemRestriction rstr, CeedInt *block_size);
-/// mult_i = number of element nodes that refer to entry i of the L-vector.
+/// mult_i = number of element nodes that refer to entry i of the L-vector, whatever their orientation.
 CEED_EXTERN int CeedElemRestrictionGetMultiplicity(CeedElemRestriction rstr, CeedVector mult);
 CEED_EXTERN int CeedElemRestrictionSetNumViewTabs(CeedElemRestriction rstr, CeedInt num_tabs);
 CEED_EXTERN int CeedElemRestrictionGetNumViewTabs(CeedElemRestriction rstr, CeedInt *num_tabs);

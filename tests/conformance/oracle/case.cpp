@@ -85,11 +85,20 @@ std::vector<std::vector<Term>> terms(const Case &c, const Field &field, CeedInt 
     return static_cast<CeedSize>(space.offsets[elem * space.elem_size + node]) +
            static_cast<CeedSize>(comp) * space.comp_stride;
   };
+  const auto add = [&](std::vector<Term> &value, CeedInt node, CeedInt comp, CeedScalar coefficient) {
+    if (space.orientation.empty()) return value.push_back({place(node, comp), coefficient});
+    for (CeedInt m = std::max(node - 1, 0); m <= std::min(node + 1, space.elem_size - 1); m++) {
+      const CeedScalar turned = space.orientation[3 * (elem * space.elem_size + node) + 1 + m - node];
+      value.push_back({place(m, comp), turned * coefficient});
+    }
+  };
   if (field.mode == CEED_EVAL_NONE) {
     for (CeedInt comp = 0; comp < space.num_comp; comp++) {
-      const CeedSize index =
-          c.at_points ? static_cast<CeedSize>(c.point_numbers[elem][q]) * space.num_comp + comp : place(q, comp);
-      result[comp].push_back({index, 1});
+      if (c.at_points) {
+        result[comp].push_back({static_cast<CeedSize>(c.point_numbers[elem][q]) * space.num_comp + comp, 1});
+      } else {
+        add(result[comp], q, comp, 1);
+      }
     }
     return result;
   }
@@ -106,7 +115,7 @@ std::vector<std::vector<Term>> terms(const Case &c, const Field &field, CeedInt 
         product *= is_derived ? derivative[d][rest % space.P_1d] : value[d][rest % space.P_1d];
       }
       for (CeedInt comp = 0; comp < space.num_comp; comp++) {
-        result[direction * space.num_comp + comp].push_back({place(node, comp), product});
+        add(result[direction * space.num_comp + comp], node, comp, product);
       }
     }
   }
@@ -228,7 +237,9 @@ Values matrix(const Case &c) {
 
 CeedSize num_terms(const Case &c) {
   CeedSize nodes = 1;
-  for (const Space &space : c.spaces) nodes = std::max<CeedSize>(nodes, space.elem_size);
+  for (const Space &space : c.spaces) {
+    nodes = std::max<CeedSize>(nodes, space.elem_size * (space.orientation.empty() ? 1 : 9));
+  }
   return nodes * std::max<CeedSize>(1, num_active_inputs(c)) + c.total_points() * num_outputs(c) + 4 * nodes;
 }
 

@@ -3,6 +3,8 @@
 /// plain loops, nothing of the library but the positions of Gauss and Gauss-Lobatto points.
 #pragma once
 
+#include <ceed/backend.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +24,8 @@ struct Space {
   std::vector<CeedInt> point_list;  ///< at points without basis: offsets as CeedElemRestrictionCreateAtPoints has them
   bool is_strided = false;          ///< then `strides` says the same as `offsets`
   CeedInt strides[3] = {0, 0, 0};
+  CeedRestrictionType type = CEED_RESTRICTION_STANDARD;  ///< of those with offsets
+  std::vector<CeedInt8> orientation;  ///< (band, node, element): T(n,n-1), T(n,n), T(n,n+1); empty: the identity
 };
 
 /// One input or output.
@@ -90,6 +94,7 @@ struct CaseWishes {
   bool is_square = false;    ///< one active space, the same in and out: for diagonals
   bool is_bilinear = false;  ///< with active inputs and an active output that have bases
   int max_comp = 9;
+  bool is_oriented = false;  ///< elements have orientations
 };
 Case random_case(Random &random, const CaseWishes &wishes);
 

@@ -6,23 +6,33 @@
 #include <cstdlib>
 
 #include "conformance/qfunctions/mix.h"
+#include "restriction_case.hpp"
 
 namespace hg::test {
 namespace {
 
 Restriction make_restriction(Ceed ceed, const Case &c, const Space &space) {
-  Restriction rstr;
+  RestrictionCase r;
+  r.num_elem = c.num_elem;
+  r.num_comp = space.num_comp;
+  r.elem_size = space.elem_size;
+  r.comp_stride = space.comp_stride;
+  r.l_size = space.l_size;
   if (!space.point_list.empty()) {
-    ok(CeedElemRestrictionCreateAtPoints(ceed, c.num_elem, c.total_points(), space.num_comp, space.l_size,
-                                         CEED_MEM_HOST, CEED_COPY_VALUES, space.point_list.data(), rstr.out()));
+    r.type = CEED_RESTRICTION_POINTS;
+    r.offsets = space.point_list;
+    r.num_points = c.total_points();
   } else if (space.is_strided) {
-    ok(CeedElemRestrictionCreateStrided(ceed, c.num_elem, space.elem_size, space.num_comp, space.l_size, space.strides,
-                                        rstr.out()));
+    r.type = CEED_RESTRICTION_STRIDED;
+    std::copy_n(space.strides, 3, r.strides);
   } else {
-    ok(CeedElemRestrictionCreate(ceed, c.num_elem, space.elem_size, space.num_comp, space.comp_stride, space.l_size,
-                                 CEED_MEM_HOST, CEED_COPY_VALUES, space.offsets.data(), rstr.out()));
+    r.type = space.type;
+    r.offsets = space.offsets;
+    r.curl_orients = space.orientation;
+    r.orients = std::make_shared<bool[]>(space.offsets.size());
+    for (std::size_t i = 0; i < space.orientation.size() / 3; i++) r.orients[i] = space.orientation[3 * i + 1] < 0;
   }
-  return rstr;
+  return make_restriction(ceed, r);
 }
 
 }  // namespace

@@ -159,6 +159,21 @@ class Builder {
   const CaseWishes &wishes_;
 };
 
+/// Signs, or tridiagonal matrices, for the spaces that have offsets.
+void orient(Case &c, Random &random) {
+  for (Space &space : c.spaces) {
+    if (space.is_strided || !space.point_list.empty() || random.chance(0.2)) continue;
+    const bool has_signs = random.chance(0.4);
+    space.type = has_signs ? CEED_RESTRICTION_ORIENTED : CEED_RESTRICTION_CURL_ORIENTED;
+    for (std::size_t i = 0; i < space.offsets.size(); i++) {
+      for (int band = -1; band <= 1; band++) {
+        const CeedInt entry = has_signs ? (band == 0 ? 2 * random.integer(0, 1) - 1 : 0) : random.integer(-1, 1);
+        space.orientation.push_back(static_cast<CeedInt8>(entry));
+      }
+    }
+  }
+}
+
 void place_quadrature_points(Case &c) {
   Values points(c.Q_1d), weights(c.Q_1d);
   ok(c.quad_mode == CEED_GAUSS ? CeedGaussQuadrature(c.Q_1d, points.data(), weights.data())
@@ -224,6 +239,7 @@ Case random_case(Random &random, const CaseWishes &wishes) {
   for (std::size_t i = 0; i < c.outputs.size(); i++) c.mix.out_size[i] = c.size(c.outputs[i]);
   for (CeedScalar &factor : c.mix.factor) factor = random.real(-0.2, 0.2);
   for (CeedScalar &entry : c.mix.matrix) entry = random.real();
+  if (wishes.is_oriented) orient(c, random);
   return c;
 }
 

@@ -1,0 +1,184 @@
+// Oriented, curl-oriented and blocked restrictions and their copies: what they tell, what they print and what they
+// refuse. What they do is the conformance suite's.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "support/errors.hpp"
+#include "support/handles.hpp"
+#include "support/values.hpp"
+#include "view_text.hpp"
+
+namespace {
+
+using namespace hg::test;
+
+template <typename T>
+T ask(CeedElemRestriction rstr, int (*getter)(CeedElemRestriction, T *)) {
+  T value{};
+  ok(getter(rstr, &value));
+  return value;
+}
+
+/// The first `count` entries of a table, or none where there is no table.
+template <typename T>
+std::vector<int> table(CeedElemRestriction rstr, int (*get)(CeedElemRestriction, CeedMemType, const T **),
+                       int (*restore)(CeedElemRestriction, const T **), std::size_t count) {
+  const T *array = nullptr;
+  ok(get(rstr, CEED_MEM_HOST, &array));
+  std::vector<int> values;
+  if (array != nullptr) values.assign(array, array + count);
+  ok(restore(rstr, &array));
+  EXPECT_EQ(array, nullptr);
+  return values;
+}
+std::vector<int> offsets_of(CeedElemRestriction rstr, std::size_t count) {
+  return table(rstr, CeedElemRestrictionGetOffsets, CeedElemRestrictionRestoreOffsets, count);
+}
+std::vector<int> orients_of(CeedElemRestriction rstr, std::size_t count) {
+  return table(rstr, CeedElemRestrictionGetOrientations, CeedElemRestrictionRestoreOrientations, count);
+}
+std::vector<int> curl_orients_of(CeedElemRestriction rstr, std::size_t count) {
+  return table(rstr, CeedElemRestrictionGetCurlOrientations, CeedElemRestrictionRestoreCurlOrientations, count);
+}
+
+std::string view(CeedElemRestriction rstr) {
+  return printed([&](FILE *stream) { ok(CeedElemRestrictionView(rstr, stream)); });
+}
+
+/// Three elements of two nodes on a line of four, with two components far apart.
+class RestrictionForms : public testing::Test {
+ protected:
+  int oriented(const CeedInt *its_offsets, const bool *its_orients, CeedCopyMode mode = CEED_COPY_VALUES) {
+    return CeedElemRestrictionCreateOriented(ceed, 3, 2, 2, 4, 8, CEED_MEM_HOST, mode, its_offsets, its_orients,
+                                             rstr.out());
+  }
+  int curl_oriented(const CeedInt *its_offsets, const CeedInt8 *its_orients, CeedCopyMode mode = CEED_COPY_VALUES) {
+    return CeedElemRestrictionCreateCurlOriented(ceed, 3, 2, 2, 4, 8, CEED_MEM_HOST, mode, its_offsets, its_orients,
+                                                 rstr.out());
+  }
+  CeedSize flops(CeedTransposeMode mode) {
+    CeedSize count = -1;
+    ok(CeedElemRestrictionGetFlopsEstimate(rstr, mode, &count));
+    return count;
+  }
+  void expect_sizes(CeedRestrictionType type) {
+    EXPECT_EQ(ask(rstr, CeedElemRestrictionGetType), type);
+    EXPECT_EQ(ask(rstr, CeedElemRestrictionGetNumElements), 3);
+    EXPECT_EQ(ask(rstr, CeedElemRestrictionGetElementSize), 2);
+    EXPECT_EQ(ask(rstr, CeedElemRestrictionGetNumComponents), 2);
+    EXPECT_EQ(ask(rstr, CeedElemRestrictionGetCompStride), 4);
+    EXPECT_EQ(ask(rstr, CeedElemRestrictionGetLVectorSize), 8);
+    EXPECT_FALSE(ask(rstr, CeedElemRestrictionIsStrided));
+    EXPECT_FALSE(ask(rstr, CeedElemRestrictionIsAtPoints));
+  }
+
+  CeedHandle ceed{open(reference_resource)};
+  Restriction rstr;
+  const std::vector<CeedInt> offsets{0, 1, 1, 2, 2, 3};
+  const bool orients[6] = {false, true, true, false, false, true};
+  const std::vector<CeedInt8> curl_orients{9, 1, 0, 0, 1, 9, 9, 0, -1, -1, 0, 9, 9, 2, -1, 3, -1, 9};
+};
+
+TEST_F(RestrictionForms, Oriented) {
+  ok(oriented(offsets.data(), orients));
+  expect_sizes(CEED_RESTRICTION_ORIENTED);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetEVectorSize), 12);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetNumBlocks), 3);
+  EXPECT_EQ(offsets_of(rstr, 6), std::vector<int>(offsets.begin(), offsets.end()));
+  EXPECT_EQ(orients_of(rstr, 6), (std::vector<int>{0, 1, 1, 0, 0, 1}));
+  EXPECT_EQ(curl_orients_of(rstr, 18), std::vector<int>());
+  // A sign for each value, and an addition for each that is scattered.
+  EXPECT_EQ(flops(CEED_NOTRANSPOSE), 12);
+  EXPECT_EQ(flops(CEED_TRANSPOSE), 24);
+  EXPECT_EQ(view(rstr), "CeedElemRestriction from (8, 2) to 3 elements with 2 nodes each and component stride 4\n");
+}
+
+TEST_F(RestrictionForms, CurlOriented) {
+  ok(curl_oriented(offsets.data(), curl_orients.data()));
+  expect_sizes(CEED_RESTRICTION_CURL_ORIENTED);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetEVectorSize), 12);
+  EXPECT_EQ(offsets_of(rstr, 6), std::vector<int>(offsets.begin(), offsets.end()));
+  EXPECT_EQ(orients_of(rstr, 6), std::vector<int>());
+  EXPECT_EQ(curl_orients_of(rstr, 18), std::vector<int>(curl_orients.begin(), curl_orients.end()));
+  // Three products and two sums; or three products, each added.
+  EXPECT_EQ(flops(CEED_NOTRANSPOSE), 60);
+  EXPECT_EQ(flops(CEED_TRANSPOSE), 72);
+  EXPECT_EQ(view(rstr), "CeedElemRestriction from (8, 2) to 3 elements with 2 nodes each and component stride 4\n");
+}
+
+TEST_F(RestrictionForms, WithoutOrientationHaveNone) {
+  ok(CeedElemRestrictionCreate(ceed, 3, 2, 2, 4, 8, CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(), rstr.out()));
+  EXPECT_EQ(orients_of(rstr, 6), std::vector<int>());
+  EXPECT_EQ(curl_orients_of(rstr, 18), std::vector<int>());
+}
+
+TEST_F(RestrictionForms, KeepTheirTablesAsAsked) {
+  const bool *signs = nullptr;
+  const CeedInt8 *matrices = nullptr;
+  ok(oriented(offsets.data(), orients, CEED_USE_POINTER));
+  ok(CeedElemRestrictionGetOrientations(rstr, CEED_MEM_HOST, &signs));
+  EXPECT_EQ(signs, orients);
+  ok(CeedElemRestrictionRestoreOrientations(rstr, &signs));
+  ok(curl_oriented(offsets.data(), curl_orients.data(), CEED_USE_POINTER));
+  ok(CeedElemRestrictionGetCurlOrientations(rstr, CEED_MEM_HOST, &matrices));
+  EXPECT_EQ(matrices, curl_orients.data());
+  ok(CeedElemRestrictionRestoreCurlOrientations(rstr, &matrices));
+  ok(curl_oriented(offsets.data(), curl_orients.data(), CEED_COPY_VALUES));
+  ok(CeedElemRestrictionGetCurlOrientations(rstr, CEED_MEM_HOST, &matrices));
+  EXPECT_NE(matrices, curl_orients.data());
+  ok(CeedElemRestrictionRestoreCurlOrientations(rstr, &matrices));
+
+  // What is refused is not adopted: these arrays stay ours.
+  auto *own_offsets = static_cast<CeedInt *>(std::calloc(6, sizeof(CeedInt)));
+  auto *own_orients = static_cast<bool *>(std::calloc(6, sizeof(bool)));
+  own_offsets[5] = 9;
+  Restriction refused;
+  expect_error(CeedElemRestrictionCreateOriented(ceed, 3, 2, 2, 4, 8, CEED_MEM_HOST, CEED_OWN_POINTER, own_offsets,
+                                                 own_orients, refused.out()),
+               CEED_ERROR_DIMENSION, {"element 2, node 1 is 9"});
+  std::free(own_offsets);
+  std::free(own_orients);
+}
+
+TEST_F(RestrictionForms, LockTheirTables) {
+  ok(oriented(offsets.data(), orients));
+  const bool *signs = nullptr;
+  ok(CeedElemRestrictionGetOrientations(rstr, CEED_MEM_HOST, &signs));
+  expect_error(CeedElemRestrictionDestroy(rstr.address()), CEED_ERROR_ACCESS,
+               {"Cannot destroy CeedElemRestriction, a process has read access to the offset data"});
+  ok(CeedElemRestrictionRestoreOrientations(rstr, &signs));
+  expect_error(CeedElemRestrictionRestoreOrientations(rstr, &signs), CEED_ERROR_ACCESS,
+               {"orientations, access was not granted"});
+  const CeedInt8 *matrices = nullptr;
+  expect_error(CeedElemRestrictionRestoreCurlOrientations(rstr, &matrices), CEED_ERROR_ACCESS,
+               {"curl-orientations, access was not granted"});
+  expect_error(CeedElemRestrictionGetOrientations(rstr, CEED_MEM_DEVICE, &signs), CEED_ERROR_BACKEND, {"HOST"});
+}
+
+TEST_F(RestrictionForms, RefuseBadOrientations) {
+  expect_error(oriented(offsets.data(), nullptr), CEED_ERROR_MINOR, {"the orientations are NULL"});
+  expect_error(curl_oriented(offsets.data(), nullptr), CEED_ERROR_MINOR, {"the curl-orientations are NULL"});
+  expect_error(oriented(nullptr, orients), CEED_ERROR_MINOR, {"the offsets are NULL"});
+  expect_error(oriented(offsets.data(), orients, static_cast<CeedCopyMode>(3)), CEED_ERROR_MINOR, {"copy mode is 3"});
+  std::vector<CeedInt8> wrong = curl_orients;
+  wrong[8] = -128;
+  expect_error(curl_oriented(offsets.data(), wrong.data()), CEED_ERROR_DIMENSION,
+               {"curl-orientation 2 of element 1 is -128"});
+  std::vector<CeedInt> beyond = offsets;
+  beyond[4] = 4;
+  expect_error(curl_oriented(beyond.data(), curl_orients.data()), CEED_ERROR_DIMENSION, {"element 2, node 0 is 4"});
+  EXPECT_EQ(rstr.get(), nullptr);
+}
+
+TEST_F(RestrictionForms, AcceptARankWithoutElements) {
+  ok(CeedElemRestrictionCreateOriented(ceed, 0, 2, 1, 1, 0, CEED_MEM_HOST, CEED_USE_POINTER, nullptr, nullptr,
+                                       rstr.out()));
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetEVectorSize), 0);
+  ok(CeedElemRestrictionCreateCurlOriented(ceed, 0, 2, 1, 1, 0, CEED_MEM_HOST, CEED_COPY_VALUES, nullptr, nullptr,
+                                           rstr.out()));
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetEVectorSize), 0);
+}
+
+}  // namespace
