@@ -93,6 +93,19 @@ int CeedElemRestrictionApply(CeedElemRestriction rstr, CeedTransposeMode t_mode,
   });
 }
 
+int CeedElemRestrictionApplyBlock(CeedElemRestriction rstr, CeedInt block, CeedTransposeMode t_mode, CeedVector u,
+                                  CeedVector ru, CeedRequest *) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    hg::require(block >= 0 && block < r.num_block(), CEED_ERROR_DIMENSION, [&] {
+      return hg::text("CeedElemRestrictionApplyBlock: block is %" CeedInt_FMT "; expected one in [0, %" CeedInt_FMT ")",
+                      block, r.num_block());
+    });
+    const CeedSize nodes = r.is_points() ? r.num_nodes(block) : static_cast<CeedSize>(r.block_size) * r.elem_size;
+    apply_blocks(r, block, 1, nodes * r.num_comp, t_mode, u, ru);
+  });
+}
+
 int CeedElemRestrictionApplyAtPointsInElement(CeedElemRestriction rstr, CeedInt elem, CeedTransposeMode t_mode,
                                               CeedVector u, CeedVector ru, CeedRequest *) {
   return hg::guard(hg::ceed_of(rstr), [&] {

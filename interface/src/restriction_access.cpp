@@ -139,8 +139,9 @@ CeedSize CeedElemRestriction_private::place(CeedInt e, CeedInt n, CeedInt c) con
 }
 
 void CeedElemRestriction_private::view(FILE *stream) const {
-  std::fprintf(stream, "%sCeedElemRestriction%s from (%td, %" CeedInt_FMT ") to %" CeedInt_FMT " elements with ",
-               hg::tabs(*this).c_str(), is_points() ? " at points" : "", l_size, num_comp, num_elem);
+  std::fprintf(stream, "%s%sCeedElemRestriction%s from (%td, %" CeedInt_FMT ") to %" CeedInt_FMT " elements with ",
+               hg::tabs(*this).c_str(), block_size > 1 ? "Blocked " : "", is_points() ? " at points" : "", l_size,
+               num_comp, num_elem);
   if (is_points()) {
     std::fprintf(stream, "a maximum of %" CeedInt_FMT " points on an element\n", elem_size);
   } else if (is_strided()) {

@@ -373,6 +373,73 @@ int CeedElemRestrictionCreateStrided(Ceed ceed, CeedInt num_elem, CeedInt elem_s
   return hg::guard(ceed, [&] { create_strided(ceed, num_elem, elem_size, 1, num_comp, l_size, strides, rstr); });
 }
 
+int CeedElemRestrictionCreateBlocked(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt block_size,
+                                     CeedInt num_comp, CeedInt comp_stride, CeedSize l_size, CeedMemType mem_type,
+                                     CeedCopyMode copy_mode, const CeedInt *offsets, CeedElemRestriction *rstr) {
+  return hg::guard(ceed, [&] {
+    create(ceed,
+           {.num_elem = num_elem,
+            .elem_size = elem_size,
+            .block_size = block_size,
+            .num_comp = num_comp,
+            .comp_stride = comp_stride,
+            .l_size = l_size,
+            .mem_type = mem_type,
+            .copy_mode = copy_mode,
+            .offsets = offsets},
+           rstr);
+  });
+}
+
+int CeedElemRestrictionCreateBlockedOriented(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt block_size,
+                                             CeedInt num_comp, CeedInt comp_stride, CeedSize l_size,
+                                             CeedMemType mem_type, CeedCopyMode copy_mode, const CeedInt *offsets,
+                                             const bool *orients, CeedElemRestriction *rstr) {
+  return hg::guard(ceed, [&] {
+    create(ceed,
+           {.type = CEED_RESTRICTION_ORIENTED,
+            .num_elem = num_elem,
+            .elem_size = elem_size,
+            .block_size = block_size,
+            .num_comp = num_comp,
+            .comp_stride = comp_stride,
+            .l_size = l_size,
+            .mem_type = mem_type,
+            .copy_mode = copy_mode,
+            .offsets = offsets,
+            .orients = orients},
+           rstr);
+  });
+}
+
+int CeedElemRestrictionCreateBlockedCurlOriented(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt block_size,
+                                                 CeedInt num_comp, CeedInt comp_stride, CeedSize l_size,
+                                                 CeedMemType mem_type, CeedCopyMode copy_mode, const CeedInt *offsets,
+                                                 const CeedInt8 *curl_orients, CeedElemRestriction *rstr) {
+  return hg::guard(ceed, [&] {
+    create(ceed,
+           {.type = CEED_RESTRICTION_CURL_ORIENTED,
+            .num_elem = num_elem,
+            .elem_size = elem_size,
+            .block_size = block_size,
+            .num_comp = num_comp,
+            .comp_stride = comp_stride,
+            .l_size = l_size,
+            .mem_type = mem_type,
+            .copy_mode = copy_mode,
+            .offsets = offsets,
+            .curl_orients = curl_orients},
+           rstr);
+  });
+}
+
+int CeedElemRestrictionCreateBlockedStrided(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt block_size,
+                                            CeedInt num_comp, CeedSize l_size, const CeedInt strides[3],
+                                            CeedElemRestriction *rstr) {
+  return hg::guard(ceed,
+                   [&] { create_strided(ceed, num_elem, elem_size, block_size, num_comp, l_size, strides, rstr); });
+}
+
 int CeedElemRestrictionCreateAtPoints(Ceed ceed, CeedInt num_elem, CeedInt num_points, CeedInt num_comp,
                                       CeedSize l_size, CeedMemType mem_type, CeedCopyMode copy_mode,
                                       const CeedInt *offsets, CeedElemRestriction *rstr) {

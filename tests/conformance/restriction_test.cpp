@@ -79,10 +79,13 @@ class RestrictionConformance : public BackendTest {
                                          CEED_RESTRICTION_POINTS};
     for (int round = 0; round < 25; round++) {
       for (const CeedRestrictionType type : types) {
-        const Map map(ceed, random_restriction(random, type, false));
-        SCOPED_TRACE("round " + std::to_string(round) + ": " + describe(map.c));
-        check(map);
-        if (HasFailure()) return;
+        for (const bool is_blocked : {false, true}) {
+          if (is_blocked && type == CEED_RESTRICTION_POINTS) continue;
+          const Map map(ceed, random_restriction(random, type, is_blocked));
+          SCOPED_TRACE("round " + std::to_string(round) + ": " + describe(map.c));
+          check(map);
+          if (HasFailure()) return;
+        }
       }
     }
   }
@@ -187,13 +190,65 @@ TEST_P(RestrictionConformance, TakesItsArraysAsAsked) {
 }
 
 TEST_P(RestrictionConformance, StridesOfTheBackendAreAnyOneToOneMap) {
-  RestrictionCase c = random_restriction(random, CEED_RESTRICTION_STRIDED, false);
-  std::fill_n(c.strides, 3, 0);
-  Map map(ceed, c);
-  ok(CeedElemRestrictionGetLLayout(map.rstr, map.c.strides));
-  expect_gathers(map, random);
-  const Values l = random.reals(map.c.l_size);
-  EXPECT_EQ(map.apply(CEED_TRANSPOSE, map.apply(CEED_NOTRANSPOSE, l, zeros(map.e_size())), zeros(map.c.l_size)), l);
+  for (int round = 0; round < 20; round++) {
+    RestrictionCase c = random_restriction(random, CEED_RESTRICTION_STRIDED, round % 2 == 1);
+    SCOPED_TRACE(describe(c));
+    std::fill_n(c.strides, 3, 0);
+    Map map(ceed, c);
+    ok(CeedElemRestrictionGetLLayout(map.rstr, map.c.strides));
+    expect_gathers(map, random);
+    const Values l = random.reals(map.c.l_size);
+    EXPECT_EQ(map.apply(CEED_TRANSPOSE, map.apply(CEED_NOTRANSPOSE, l, zeros(map.e_size())), zeros(map.c.l_size)), l);
+  }
+}
+
+TEST_P(RestrictionConformance, BlockedIsPlainInAnotherOrder) {
+  for_maps([&](const Map &map) {
+    RestrictionCase c = map.c;
+    c.block_size = 0;
+    const Map plain(ceed, c);
+    const Values l = random.reals(map.c.l_size), values = map.apply(CEED_NOTRANSPOSE, l, zeros(map.e_size()));
+    const Values plain_values = plain.apply(CEED_NOTRANSPOSE, l, zeros(plain.e_size()));
+    map.for_each_value([&](CeedInt e, CeedInt n, CeedInt comp) {
+      EXPECT_EQ(values[e_place(map.rstr, e, n, comp)], plain_values[e_place(plain.rstr, e, n, comp)]);
+    });
+    EXPECT_EQ(map.apply(CEED_TRANSPOSE, values, l), plain.apply(CEED_TRANSPOSE, plain_values, l));
+
+    // What fills the last block is the last element again.
+    const CeedInt B = std::max(map.c.block_size, 1), num_block = (map.c.num_elem + B - 1) / B;
+    for (CeedInt e = map.c.num_elem; e < num_block * B; e++) {
+      for (CeedInt n = 0; n < map.c.elem_size; n++) {
+        EXPECT_EQ(values[e_place(map.rstr, e, n, 0)], values[e_place(map.rstr, map.c.num_elem - 1, n, 0)]);
+      }
+    }
+  });
+}
+
+TEST_P(RestrictionConformance, ServesOneBlock) {
+  for_maps([&](const Map &map) {
+    CeedInt num_block = 0;
+    ok(CeedElemRestrictionGetNumBlocks(map.rstr, &num_block));
+    const CeedInt B = std::max(map.c.block_size, 1);
+    EXPECT_EQ(num_block, (map.c.num_elem + B - 1) / B);
+    const Values l = random.reals(map.c.l_size), all = map.apply(CEED_NOTRANSPOSE, l, zeros(map.e_size()));
+    const Values values = random.reals(map.e_size());
+    const Vector l_vector = make_vector(ceed, l), sum = make_vector(ceed, map.c.l_size, 0.0);
+    for (CeedInt block = 0; block < num_block; block++) {
+      // The elements of a block are next to each other: from its first value on.
+      const CeedInt num_nodes = map.c.num_nodes(block * B) * map.c.num_comp;
+      if (num_nodes == 0) continue;
+      const CeedSize start = e_place(map.rstr, block * B, 0, 0), size = CeedSize{B} * num_nodes;
+      const Vector e_vector = make_vector(ceed, size + 1, -5.0);
+      ok(CeedElemRestrictionApplyBlock(map.rstr, block, CEED_NOTRANSPOSE, l_vector, e_vector, CEED_REQUEST_IMMEDIATE));
+      Values want(all.begin() + start, all.begin() + start + size);
+      want.push_back(-5.0);
+      EXPECT_EQ(values_of(e_vector), want) << "block " << block << ", or what lies beyond it";
+      set_values(e_vector, Values(values.begin() + start, values.begin() + start + size));
+      ok(CeedElemRestrictionApplyBlock(map.rstr, block, CEED_TRANSPOSE, e_vector, sum, CEED_REQUEST_IMMEDIATE));
+    }
+    expect_close(values_of(sum), map.scattered(values, zeros(map.c.l_size)), tolerance(4 * map.e_size()),
+                 "sum of the blocks' R^T e", 1);
+  });
 }
 
 TEST_P(RestrictionConformance, ServesThePointsOfOneElement) {

@@ -172,6 +172,87 @@ TEST_F(RestrictionForms, RefuseBadOrientations) {
   EXPECT_EQ(rstr.get(), nullptr);
 }
 
+TEST_F(RestrictionForms, Blocked) {
+  ok(CeedElemRestrictionCreateBlocked(ceed, 3, 2, 2, 2, 4, 8, CEED_MEM_HOST, CEED_USE_POINTER, offsets.data(),
+                                      rstr.out()));
+  expect_sizes(CEED_RESTRICTION_STANDARD);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetNumBlocks), 2);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetBlockSize), 2);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetEVectorSize), 16);
+  // Node, then element of the block; the last element twice.
+  EXPECT_EQ(offsets_of(rstr, 8), (std::vector<int>{0, 1, 1, 2, 2, 2, 3, 3}));
+  EXPECT_EQ(view(rstr),
+            "Blocked CeedElemRestriction from (8, 2) to 3 elements with 2 nodes each and component stride 4\n");
+  // Blocks of one element are no blocks.
+  ok(CeedElemRestrictionCreateBlocked(ceed, 3, 2, 1, 2, 4, 8, CEED_MEM_HOST, CEED_USE_POINTER, offsets.data(),
+                                      rstr.out()));
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetNumBlocks), 3);
+  EXPECT_EQ(offsets_of(rstr, 6), std::vector<int>(offsets.begin(), offsets.end()));
+  EXPECT_EQ(view(rstr), "CeedElemRestriction from (8, 2) to 3 elements with 2 nodes each and component stride 4\n");
+}
+
+TEST_F(RestrictionForms, BlockedWithOrientations) {
+  ok(CeedElemRestrictionCreateBlockedOriented(ceed, 3, 2, 2, 2, 4, 8, CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(),
+                                              orients, rstr.out()));
+  expect_sizes(CEED_RESTRICTION_ORIENTED);
+  EXPECT_EQ(offsets_of(rstr, 8), (std::vector<int>{0, 1, 1, 2, 2, 2, 3, 3}));
+  EXPECT_EQ(orients_of(rstr, 8), (std::vector<int>{0, 1, 1, 0, 0, 0, 1, 1}));
+  EXPECT_EQ(flops(CEED_NOTRANSPOSE), 16);
+  EXPECT_EQ(view(rstr).substr(0, 27), "Blocked CeedElemRestriction");
+  ok(CeedElemRestrictionCreateBlockedCurlOriented(ceed, 3, 2, 2, 2, 4, 8, CEED_MEM_HOST, CEED_COPY_VALUES,
+                                                  offsets.data(), curl_orients.data(), rstr.out()));
+  expect_sizes(CEED_RESTRICTION_CURL_ORIENTED);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetEVectorSize), 16);
+  EXPECT_EQ(curl_orients_of(rstr, 24),
+            (std::vector<int>{9, 9, 1, 0, 0, -1, 0, -1, 1, 0, 9, 9, 9, 9, 2, 2, -1, -1, 3, 3, -1, -1, 9, 9}));
+}
+
+TEST_F(RestrictionForms, BlockedStrided) {
+  const CeedInt strides[3] = {1, 6, 2};
+  ok(CeedElemRestrictionCreateBlockedStrided(ceed, 3, 2, 2, 2, 12, strides, rstr.out()));
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetType), CEED_RESTRICTION_STRIDED);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetNumBlocks), 2);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetEVectorSize), 16);
+  EXPECT_EQ(view(rstr),
+            "Blocked CeedElemRestriction from (12, 2) to 3 elements with 2 nodes each and strides [1, 6, 2]\n");
+  CeedInt layout[3] = {0, 0, 0};
+  ok(CeedElemRestrictionCreateBlockedStrided(ceed, 3, 2, 2, 2, 12, CEED_STRIDES_BACKEND, rstr.out()));
+  EXPECT_TRUE(ask(rstr, CeedElemRestrictionHasBackendStrides));
+  ok(CeedElemRestrictionGetLLayout(rstr, layout));
+  EXPECT_EQ((std::vector<int>(layout, layout + 3)), (std::vector<int>{1, 2, 4}));
+  EXPECT_EQ(view(rstr),
+            "Blocked CeedElemRestriction from (12, 2) to 3 elements with 2 nodes each and strides [0, 0, 0]\n");
+  // The L-vector has no room for the copies that fill the last block, and needs none.
+  expect_error(CeedElemRestrictionCreateBlockedStrided(ceed, 3, 2, 2, 2, 11, CEED_STRIDES_BACKEND, rstr.out()),
+               CEED_ERROR_DIMENSION, {"[1, 2, 4]", "entry 11"});
+}
+
+TEST_F(RestrictionForms, RefuseBadBlocks) {
+  const auto create = [&](CeedInt block_size) {
+    return CeedElemRestrictionCreateBlocked(ceed, 3, 2, block_size, 1, 1, 4, CEED_MEM_HOST, CEED_COPY_VALUES,
+                                            offsets.data(), rstr.out());
+  };
+  expect_error(create(0), CEED_ERROR_DIMENSION, {"block size is 0", "1 element or more"});
+  expect_error(create(-2), CEED_ERROR_DIMENSION, {"block size is -2"});
+  expect_error(CeedElemRestrictionCreateBlocked(ceed, 3, 2, 2, 1, 1, 3, CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(),
+                                                rstr.out()),
+               CEED_ERROR_DIMENSION, {"element 2, node 1 is 3"});
+  const CeedInt strides[3] = {0, 0, 0}, most = 2147483647;
+  expect_error(CeedElemRestrictionCreateBlockedStrided(ceed, most, 1, 2, 1, most, strides, rstr.out()),
+               CEED_ERROR_DIMENSION, {"whole blocks", "2147483648"});
+  ok(create(2));
+  Vector l = make_vector(ceed, 4, 1.0), block = make_vector(ceed, 4, 0.0), small = make_vector(ceed, 3, 0.0);
+  const auto apply = [&](CeedInt number, CeedTransposeMode mode, CeedVector u, CeedVector v) {
+    return CeedElemRestrictionApplyBlock(rstr, number, mode, u, v, CEED_REQUEST_IMMEDIATE);
+  };
+  expect_error(apply(2, CEED_NOTRANSPOSE, l, block), CEED_ERROR_DIMENSION, {"block is 2", "[0, 2)"});
+  expect_error(apply(-1, CEED_NOTRANSPOSE, l, block), CEED_ERROR_DIMENSION, {"block is -1"});
+  expect_error(apply(0, CEED_NOTRANSPOSE, l, small), CEED_ERROR_DIMENSION, {"Output CeedVector has 3", "at least 4"});
+  expect_error(apply(0, CEED_TRANSPOSE, small, l), CEED_ERROR_DIMENSION, {"Input CeedVector has 3", "at least 4"});
+  expect_error(apply(0, CEED_NOTRANSPOSE, l, l), CEED_ERROR_INCOMPATIBLE, {"same vector"});
+  ok(apply(1, CEED_NOTRANSPOSE, l, block));
+}
+
 TEST_F(RestrictionForms, AcceptARankWithoutElements) {
   ok(CeedElemRestrictionCreateOriented(ceed, 0, 2, 1, 1, 0, CEED_MEM_HOST, CEED_USE_POINTER, nullptr, nullptr,
                                        rstr.out()));
@@ -179,6 +260,10 @@ TEST_F(RestrictionForms, AcceptARankWithoutElements) {
   ok(CeedElemRestrictionCreateCurlOriented(ceed, 0, 2, 1, 1, 0, CEED_MEM_HOST, CEED_COPY_VALUES, nullptr, nullptr,
                                            rstr.out()));
   EXPECT_EQ(ask(rstr, CeedElemRestrictionGetEVectorSize), 0);
+  ok(CeedElemRestrictionCreateBlockedCurlOriented(ceed, 0, 2, 4, 1, 1, 0, CEED_MEM_HOST, CEED_COPY_VALUES, nullptr,
+                                                  nullptr, rstr.out()));
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetEVectorSize), 0);
+  EXPECT_EQ(ask(rstr, CeedElemRestrictionGetNumBlocks), 0);
 }
 
 }  // namespace

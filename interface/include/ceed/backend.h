@@ -80,7 +80,8 @@ CEED_EXTERN int CeedElemRestrictionAtPointsAreCompatible(CeedElemRestriction rst
 /// CeedElemRestrictionGetLLayout() gives the numbers they stand for.
 CEED_EXTERN int CeedElemRestrictionGetStrides(CeedElemRestriction rstr, CeedInt strides[3]);
 CEED_EXTERN int CeedElemRestrictionHasBackendStrides(CeedElemRestriction rstr, bool *has_backend_strides);
-/// Read access to the offsets; destroying the restriction before Restore is an error.
+/// Read access to the offsets; destroying the restriction before Restore is an error. The tables of blocked restrictions
+/// are in blocks and whole, as CeedElementMap (ceed/plugin.h) says.
 CEED_EXTERN int CeedElemRestrictionGetOffsets(CeedElemRestriction rstr, CeedMemType mem_type, const CeedInt **offsets);
 CEED_EXTERN int CeedElemRestrictionRestoreOffsets(CeedElemRestriction rstr, const CeedInt **offsets);
 /// Read access to the signs of an oriented restriction and to the matrices of a curl-oriented one; NULL where it is not

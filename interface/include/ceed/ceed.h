@@ -256,6 +256,27 @@ CEED_EXTERN int CeedElemRestrictionCreateCurlOriented(Ceed ceed, CeedInt num_ele
 /// Component c of node n in element e is at n*strides[0] + c*strides[1] + e*strides[2].
 CEED_EXTERN int CeedElemRestrictionCreateStrided(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt num_comp,
                                                  CeedSize l_size, const CeedInt strides[3], CeedElemRestriction *rstr);
+/// The same four in blocks of block_size elements, whose values lie next to each other in the E-vector: with B =
+/// block_size, node n of component c of element e is at (n*B + e%B)*layout[0] + c*B*layout[1] + (e/B)*B*layout[2], the
+/// layout that of CeedElemRestrictionGetELayout(). A last block that is not full is filled by copies of the last
+/// element; the transposed restriction does not read them. The arguments are those of the restriction without blocks.
+CEED_EXTERN int CeedElemRestrictionCreateBlocked(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt block_size,
+                                                 CeedInt num_comp, CeedInt comp_stride, CeedSize l_size,
+                                                 CeedMemType mem_type, CeedCopyMode copy_mode, const CeedInt *offsets,
+                                                 CeedElemRestriction *rstr);
+CEED_EXTERN int CeedElemRestrictionCreateBlockedOriented(Ceed ceed, CeedInt num_elem, CeedInt elem_size,
+                                                         CeedInt block_size, CeedInt num_comp, CeedInt comp_stride,
+                                                         CeedSize l_size, CeedMemType mem_type, CeedCopyMode copy_mode,
+                                                         const CeedInt *offsets, const bool *orients,
+                                                         CeedElemRestriction *rstr);
+CEED_EXTERN int CeedElemRestrictionCreateBlockedCurlOriented(Ceed ceed, CeedInt num_elem, CeedInt elem_size,
+                                                             CeedInt block_size, CeedInt num_comp, CeedInt comp_stride,
+                                                             CeedSize l_size, CeedMemType mem_type,
+                                                             CeedCopyMode copy_mode, const CeedInt *offsets,
+                                                             const CeedInt8 *curl_orients, CeedElemRestriction *rstr);
+CEED_EXTERN int CeedElemRestrictionCreateBlockedStrided(Ceed ceed, CeedInt num_elem, CeedInt elem_size,
+                                                        CeedInt block_size, CeedInt num_comp, CeedSize l_size,
+                                                        const CeedInt strides[3], CeedElemRestriction *rstr);
 /// Points of element e are those at offsets[offsets[e]] ... offsets[offsets[e+1] - 1]: num_elem+1 starts, counted from
 /// the beginning of the array (so the first is num_elem+1), then the point numbers, each below l_size / num_comp. A
 /// point may belong to several elements: there are num_points or more of them. Component c of point i is at
@@ -270,6 +291,10 @@ CEED_EXTERN int CeedElemRestrictionCreateVector(CeedElemRestriction rstr, CeedVe
 /// what is beyond stays.
 CEED_EXTERN int CeedElemRestrictionApply(CeedElemRestriction rstr, CeedTransposeMode t_mode, CeedVector u,
                                          CeedVector ru, CeedRequest *request);
+/// The same for one block of elements, [0, number of blocks): the E-vector holds that block and may be longer. Without
+/// blocks, and at points, each element is a block.
+CEED_EXTERN int CeedElemRestrictionApplyBlock(CeedElemRestriction rstr, CeedInt block, CeedTransposeMode t_mode,
+                                              CeedVector u, CeedVector ru, CeedRequest *request);
 /// The same for the points of one element: its vector holds component c of its point p at [c*num_points + p], with the
 /// element's own num_points, and may be longer than that.
 CEED_EXTERN int CeedElemRestrictionApplyAtPointsInElement(CeedElemRestriction rstr, CeedInt elem,

@@ -26,6 +26,7 @@ struct Space {
   CeedInt strides[3] = {0, 0, 0};
   CeedRestrictionType type = CEED_RESTRICTION_STANDARD;  ///< of those with offsets
   std::vector<CeedInt8> orientation;  ///< (band, node, element): T(n,n-1), T(n,n), T(n,n+1); empty: the identity
+  CeedInt block_size = 0;             ///< 0: made by a function without blocks
 };
 
 /// One input or output.
@@ -94,7 +95,7 @@ struct CaseWishes {
   bool is_square = false;    ///< one active space, the same in and out: for diagonals
   bool is_bilinear = false;  ///< with active inputs and an active output that have bases
   int max_comp = 9;
-  bool is_oriented = false;  ///< elements have orientations
+  bool is_oriented = false;  ///< elements have orientations, and come in blocks
 };
 Case random_case(Random &random, const CaseWishes &wishes);
 

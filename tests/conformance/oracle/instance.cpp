@@ -16,6 +16,7 @@ Restriction make_restriction(Ceed ceed, const Case &c, const Space &space) {
   r.num_elem = c.num_elem;
   r.num_comp = space.num_comp;
   r.elem_size = space.elem_size;
+  r.block_size = space.block_size;
   r.comp_stride = space.comp_stride;
   r.l_size = space.l_size;
   if (!space.point_list.empty()) {

@@ -159,10 +159,12 @@ class Builder {
   const CaseWishes &wishes_;
 };
 
-/// Signs, or tridiagonal matrices, for the spaces that have offsets.
+/// Signs, or tridiagonal matrices, for the spaces that have offsets; and blocks.
 void orient(Case &c, Random &random) {
   for (Space &space : c.spaces) {
-    if (space.is_strided || !space.point_list.empty() || random.chance(0.2)) continue;
+    if (!space.point_list.empty()) continue;
+    space.block_size = random.integer(0, 4);
+    if (space.is_strided || random.chance(0.2)) continue;
     const bool has_signs = random.chance(0.4);
     space.type = has_signs ? CEED_RESTRICTION_ORIENTED : CEED_RESTRICTION_CURL_ORIENTED;
     for (std::size_t i = 0; i < space.offsets.size(); i++) {

@@ -124,25 +124,37 @@ RestrictionCase random_restriction(Random &random, CeedRestrictionType type, boo
 Restriction make_restriction(Ceed ceed, const RestrictionCase &c, CeedCopyMode copy_mode) {
   Restriction rstr;
   if (c.type == CEED_RESTRICTION_STRIDED) {
-    ok(CeedElemRestrictionCreateStrided(ceed, c.num_elem, c.elem_size, c.num_comp, c.l_size, c.strides, rstr.out()));
+    ok(c.block_size == 0 ? CeedElemRestrictionCreateStrided(ceed, c.num_elem, c.elem_size, c.num_comp, c.l_size,
+                                                            c.strides, rstr.out())
+                         : CeedElemRestrictionCreateBlockedStrided(ceed, c.num_elem, c.elem_size, c.block_size,
+                                                                   c.num_comp, c.l_size, c.strides, rstr.out()));
     return rstr;
   }
   const CeedInt *offsets = given(c.offsets.data(), c.offsets.size(), copy_mode);
   const bool *orients = given<bool>(c.orients.get(), c.offsets.size(), copy_mode);
   const CeedInt8 *curl_orients = given(c.curl_orients.data(), c.curl_orients.size(), copy_mode);
+  // What follows the number of nodes, and of blocks if there are any, in the functions that take offsets.
   const auto with = [&](auto create, auto... orientation) {
-    ok(create(ceed, c.num_elem, c.elem_size, c.num_comp, c.comp_stride, c.l_size, CEED_MEM_HOST, copy_mode, offsets,
-              orientation..., rstr.out()));
+    return create(c.num_comp, c.comp_stride, c.l_size, CEED_MEM_HOST, copy_mode, offsets, orientation..., rstr.out());
   };
+  const auto plain = [&](auto create) {
+    return [&, create](auto... rest) { return create(ceed, c.num_elem, c.elem_size, rest...); };
+  };
+  const auto blocked = [&](auto create) {
+    return [&, create](auto... rest) { return create(ceed, c.num_elem, c.elem_size, c.block_size, rest...); };
+  };
+  const bool is_blocked = c.block_size > 0;
   switch (c.type) {
     case CEED_RESTRICTION_STANDARD:
-      with(CeedElemRestrictionCreate);
+      ok(is_blocked ? with(blocked(CeedElemRestrictionCreateBlocked)) : with(plain(CeedElemRestrictionCreate)));
       break;
     case CEED_RESTRICTION_ORIENTED:
-      with(CeedElemRestrictionCreateOriented, orients);
+      ok(is_blocked ? with(blocked(CeedElemRestrictionCreateBlockedOriented), orients)
+                    : with(plain(CeedElemRestrictionCreateOriented), orients));
       break;
     case CEED_RESTRICTION_CURL_ORIENTED:
-      with(CeedElemRestrictionCreateCurlOriented, curl_orients);
+      ok(is_blocked ? with(blocked(CeedElemRestrictionCreateBlockedCurlOriented), curl_orients)
+                    : with(plain(CeedElemRestrictionCreateCurlOriented), curl_orients));
       break;
     default:
       ok(CeedElemRestrictionCreateAtPoints(ceed, c.num_elem, c.num_points, c.num_comp, c.l_size, CEED_MEM_HOST,
