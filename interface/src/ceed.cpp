@@ -9,6 +9,8 @@
 namespace hg {
 
 CeedErrorHandler default_error_handler();
+/// Keeps the message that a Ceed has stored, where the Ceed itself does not come to be.
+void keep_without_ceed(const std::string &message);
 
 void require_mem_type(const Ceed_private &ceed, CeedMemType mem_type, const char *what) {
   require(mem_type == CEED_MEM_HOST || mem_type == CEED_MEM_DEVICE, CEED_ERROR_MINOR, [&] {
@@ -68,7 +70,12 @@ int CeedInit(const char *resource, Ceed *ceed) {
     auto created = hg::Ref<Ceed_private>::adopt(new Ceed_private);
     created->error_handler = hg::default_error_handler();
     created->resource = backend.resource;
-    hg::fill_tables(created.get(), backend, options.c_str());
+    try {
+      hg::fill_tables(created.get(), backend, options.c_str());
+    } catch (...) {
+      hg::keep_without_ceed(created->error_message);
+      throw;
+    }
     created->is_deterministic = created->is_deterministic || created->ops.is_deterministic;
     // What *ceed held is overwritten, not destroyed: programs pass handles that they never initialised.
     *ceed = created.release();

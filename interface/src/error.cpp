@@ -45,6 +45,10 @@ constexpr const char *no_message = "No error message stored";
 
 }  // namespace
 
+void keep_without_ceed(const std::string &message) {
+  if (!message.empty()) stored_without_ceed() = message;
+}
+
 CeedErrorHandler default_error_handler() { return handler_from_environment(); }
 
 std::string text(const char *format, ...) {

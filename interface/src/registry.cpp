@@ -221,6 +221,8 @@ const CeedBackend &backend_named(std::string_view resource) {
 }
 
 void fill_tables(Ceed ceed, const CeedBackend &backend, const char *options) {
+  static std::recursive_mutex one_at_a_time;  // recursive: an init may open another Ceed
+  const std::lock_guard lock(one_at_a_time);
   // From the backend to its oldest ancestor.
   std::vector<const CeedBackend *> line{&backend};
   while (line.back()->parent != nullptr) {

@@ -1,13 +1,9 @@
 #include "program.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cctype>
-#include <cstdlib>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 namespace hg::test {
 
@@ -16,38 +12,6 @@ std::string name_from(const std::string &arguments) {
   for (const char c : arguments)
     if (std::isalnum(static_cast<unsigned char>(c))) name += c;
   return name;
-}
-
-std::string quoted(const std::filesystem::path &path) {
-  return std::string("'").append(path.string()).append("'");
-}
-
-Finished run(const std::string &command) {
-  const TemporaryFolder folder;
-  const auto out = folder / "out", err = folder / "err";
-  const int status = std::system(("( " + command + " ) > " + quoted(out) + " 2> " + quoted(err)).c_str());
-  Finished finished;
-  finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  finished.out = read_text(out);
-  finished.err = read_text(err);
-  return finished;
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "bps_test_XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a temporary folder");
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string read_text(const std::filesystem::path &file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
 }
 
 nlohmann::json read_json(const std::filesystem::path &file) {

@@ -30,7 +30,7 @@ Backend probe(const std::string &resource) {
     if (CeedInit(resource.c_str(), &ceed)) ::_exit(1);
     const char *full_name = nullptr;
     if (CeedGetResource(ceed, &full_name)) ::_exit(1);
-    if (full_name != resource) {
+    if (full_name != resource.substr(0, resource.find(':'))) {  // options follow a colon
       std::printf("another name of %s", full_name);
       std::fflush(stdout);
       ::_exit(2);

@@ -22,23 +22,4 @@ TEST(ExpectedBackends, AreListedAndOpen) {
   }
 }
 
-class EveryBackend : public BackendTest {};
-
-TEST_P(EveryBackend, GivesItsFullName) {
-  const char *resource = nullptr;
-  ok(CeedGetResource(ceed, &resource));
-  EXPECT_EQ(resource, GetParam());
-}
-
-TEST_P(EveryBackend, SaysWhereItsMemoryIs) {
-  CeedMemType type = CEED_MEM_DEVICE;
-  ok(CeedGetPreferredMemType(ceed, &type));
-  EXPECT_TRUE(type == CEED_MEM_HOST || type == CEED_MEM_DEVICE);
-  if (GetParam().rfind("/cpu", 0) == 0) {
-    EXPECT_EQ(type, CEED_MEM_HOST);
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Backends, EveryBackend, testing::ValuesIn(usable_backends()), backend_name);
-
 }  // namespace

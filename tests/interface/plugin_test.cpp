@@ -4,7 +4,6 @@
 #include <elf.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -14,6 +13,7 @@
 
 #include "support/errors.hpp"
 #include "support/handles.hpp"
+#include "support/program.hpp"
 #include "support/values.hpp"
 
 namespace {
@@ -182,45 +182,22 @@ TEST(Plugin, WithATakenNameIsRefused) {
   EXPECT_FALSE(is_listed("/test/new"));
 }
 
-/// A folder of its own for a test, removed with all that is in it.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (std::filesystem::temp_directory_path() / "honeyguide_plugins_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp() failed");
-    folder_ = name;
-  }
-  Scratch(const Scratch &) = delete;
-  Scratch &operator=(const Scratch &) = delete;
-  ~Scratch() { std::filesystem::remove_all(folder_); }
-  const std::filesystem::path &folder() const { return folder_; }
-  std::filesystem::path operator/(const char *name) const { return folder_ / name; }
-
- private:
-  std::filesystem::path folder_;
-};
-
-std::string contents(const std::filesystem::path &path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(Plugin, ThatIsNoLibraryIsRefused) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto path = scratch / "letter.so";
   std::ofstream(path) << "Dear loader, I am a letter.\n";
   expect_refused(path.string(), CEED_ERROR_MINOR, {"cannot be opened", "no ELF header"});
   std::ofstream(path) << "";
   expect_refused(path.string(), CEED_ERROR_MINOR, {"cannot be opened", "no ELF header"});
-  expect_refused(scratch.folder().string(), CEED_ERROR_MINOR, {"cannot be opened", "no regular file"});
+  expect_refused(scratch.path().string(), CEED_ERROR_MINOR, {"cannot be opened", "no regular file"});
   expect_refused(HG_TEST_HOST, CEED_ERROR_MINOR, {"cannot be opened"});  // a program
 }
 
 /// However much of it is there, and without a signal from the dynamic loader.
 TEST(Plugin, ThatIsCutShortIsRefused) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto path = scratch / "short.so";
-  const std::string whole = contents(plugin_path("delegate"));
+  const std::string whole = read_text(plugin_path("delegate"));
   ASSERT_GT(whole.size(), 4096u);
   Elf64_Ehdr header;
   std::memcpy(&header, whole.data(), sizeof header);
@@ -240,8 +217,8 @@ TEST(Plugin, ThatIsCutShortIsRefused) {
 }
 
 TEST(Plugin, OfAnotherArchitectureIsRefused) {
-  const Scratch scratch;
-  const std::string whole = contents(plugin_path("delegate"));
+  const TemporaryFolder scratch;
+  const std::string whole = read_text(plugin_path("delegate"));
   const auto with = [&](const char *name, auto &&change) {
     std::string changed = whole;
     Elf64_Ehdr header;
@@ -309,6 +286,7 @@ TEST(Plugin, ErrorsOfInitAreTold) {
   Ceed ceed = nullptr;
   EXPECT_EQ(CeedInit("/test/failing", &ceed), CEED_ERROR_BACKEND);
   EXPECT_EQ(ceed, nullptr);
+  EXPECT_HAS(init_message("/test/failing", CEED_ERROR_BACKEND), "the driver said 77");
   EXPECT_HAS(init_message("/test/throwing"), "out of streams");
   EXPECT_HAS(init_message("/test/throwing oddly"), "exception");
   EXPECT_HAS(init_message("/test/orphan"), "/test/no such parent");
@@ -373,24 +351,20 @@ TEST(Plugin, TablesCanBeRead) {
 
 /// What a program that opens `library` when it runs prints, with `plugin` loaded.
 std::string printed_by_host(const std::string &environment, const std::string &library, const std::string &plugin = "") {
-  const std::string command = environment + " '" HG_TEST_HOST "' '" + library + "' " + plugin + " 2>&1";
-  FILE *pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("popen() failed");
-  std::string text;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
-  EXPECT_EQ(::pclose(pipe), 0) << text;
-  return text;
+  const Finished host = run(environment + " '" HG_TEST_HOST "' '" + library + "' " + plugin);
+  EXPECT_EQ(host.code, 0) << host.err;
+  return host.out + host.err;
 }
 
 /// In folders and as a file of CEED_PLUGIN_PATH; bad plugins among good ones are named and passed over.
 TEST(Plugin, AreFoundInTheSearchPath) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::filesystem::create_directory(scratch / "folder");
   std::filesystem::copy_file(plugin_path("delegate"), scratch / "folder/good.so");
   std::filesystem::copy_file(plugin_path("bad_constructor"), scratch / "folder/constructor.so");
   std::ofstream(scratch / "folder/broken.so") << "no library";
   std::ofstream(scratch / "folder/notes.txt") << "no library either";
-  const std::string whole = contents(plugin_path("delegate")), folder = (scratch / "folder").string();
+  const std::string whole = read_text(plugin_path("delegate")), folder = (scratch / "folder").string();
   std::ofstream(scratch / "folder/short.so", std::ios::binary) << whole.substr(0, whole.size() / 2);
   const std::string printed = printed_by_host("CEED_PLUGIN_PATH=/no/such/folder:" + folder + "::" + folder + "/:" +
                                                   plugin_path("troubled") + ":" + plugin_path("bad_throw"),
@@ -408,11 +382,11 @@ TEST(Plugin, AreFoundInTheSearchPath) {
 }
 
 TEST(Plugin, IsFoundBesideTheLibrary) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::filesystem::create_directory(scratch / "ceed-plugins");
   std::filesystem::copy_file(HG_TEST_LIBRARY, scratch / "libceed.so");
   std::filesystem::copy_file(plugin_path("delegate"), scratch / "ceed-plugins/delegate.so");
-  EXPECT_HAS(printed_by_host("LD_LIBRARY_PATH=" + scratch.folder().string(), "libceed.so"), "resource: /test/delegate\n");
+  EXPECT_HAS(printed_by_host("LD_LIBRARY_PATH=" + scratch.path().string(), "libceed.so"), "resource: /test/delegate\n");
   // Where a link leads, too.
   std::filesystem::create_directory(scratch / "links");
   std::filesystem::create_symlink(scratch / "libceed.so", scratch / "links/libceed.so");
@@ -423,7 +397,7 @@ TEST(Plugin, IsFoundBesideTheLibrary) {
 /// A plugin works with the library that is there, even where it was linked to another copy: bindings of other languages
 /// open the library by its path.
 TEST(Plugin, UsesTheLibraryThatIsThere) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::filesystem::copy_file(HG_TEST_LIBRARY, scratch / "libceed.so");
   for (const std::string &library : {std::string(HG_TEST_LIBRARY), (scratch / "libceed.so").string()}) {
     EXPECT_HAS(printed_by_host("", library, plugin_path("delegate")), "resource: /test/delegate\n");

@@ -198,7 +198,8 @@ typedef struct {
   /// How well this machine suits the backend; 0: not at all, and *reason says why. NULL counts as 1.
   int (*score)(const char **reason);
   /// Changes `ops` (a copy of the parent's) and sets up `ceed`; `options` is what follows the colon in the resource that
-  /// was asked for, or "".
+  /// was asked for, or "". One thread at a time is in here, so a backend may keep the parent's tables in a static
+  /// variable when it first comes by.
   int (*init)(Ceed ceed, const char *options, CeedBackendOps *ops);
 } CeedBackend;
 

@@ -1,0 +1,16 @@
+/// @file
+/// What backends can do, as the conformance suite found it.
+#pragma once
+
+#include <vector>
+
+#include "conformance.hpp"
+
+namespace hg::info {
+
+/// The table capability × backend; with a line for each case where `is_detailed`.
+void print_support(const std::vector<Report> &reports, bool is_detailed);
+/// One backend: what failed and what was skipped, with messages, and the numbers.
+void print_check(const Report &report);
+
+}  // namespace hg::info

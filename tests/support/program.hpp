@@ -1,0 +1,37 @@
+/// @file
+/// Runs a program as a shell would, and reads what it leaves.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace hg::test {
+
+struct Finished {
+  int code = -1;  ///< exit code; 128 + signal if one ended it
+  std::string out, err;
+};
+
+/// A path as one word of a shell command.
+std::string quoted(const std::filesystem::path &path);
+
+/// Runs a shell command to its end.
+Finished run(const std::string &command);
+
+/// A folder of its own for one test, gone afterwards.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder &) = delete;
+  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
+  ~TemporaryFolder();
+  const std::filesystem::path &path() const { return path_; }
+  std::filesystem::path operator/(const std::string &name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_text(const std::filesystem::path &file);
+
+}  // namespace hg::test
