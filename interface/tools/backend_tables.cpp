@@ -46,7 +46,6 @@ constexpr Entry all_entries[] = {
     {"restriction.create", offsetof(CeedBackendOps, restriction.create)},
     {"restriction.destroy", offsetof(CeedBackendOps, restriction.destroy)},
     {"restriction.apply", offsetof(CeedBackendOps, restriction.apply)},
-    {"restriction.apply_at_points_in_element", offsetof(CeedBackendOps, restriction.apply_at_points_in_element)},
     {"basis.create", offsetof(CeedBackendOps, basis.create)},
     {"basis.destroy", offsetof(CeedBackendOps, basis.destroy)},
     {"basis.apply", offsetof(CeedBackendOps, basis.apply)},
