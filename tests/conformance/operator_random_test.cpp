@@ -62,6 +62,21 @@ TEST_P(RandomOperator, AppliesAtQuadraturePoints) {
   for_cases({}, num_seeds, [&](const Case &c, Random &random) { check_apply(ceed, c, random); });
 }
 
+TEST_P(RandomOperator, AppliesInMixedSpaces) {
+  int num_tabulated[4] = {}, num_tensor = 0;
+  for_cases({.mixes_spaces = true}, num_seeds, [&](const Case &c, Random &random) {
+    check_apply(ceed, c, random);
+    for (const Space &space : c.spaces) {
+      if (space.is_tabulated()) num_tabulated[space.kind]++;
+      if (space.P_1d > 0) num_tensor++;
+    }
+  });
+  for (const CeedFESpace kind : {CEED_FE_SPACE_H1, CEED_FE_SPACE_HDIV, CEED_FE_SPACE_HCURL}) {
+    EXPECT_GE(num_tabulated[kind], 10) << CeedFESpaces[kind];
+  }
+  EXPECT_GE(num_tensor, 10);
+}
+
 TEST_P(RandomOperator, AppliesAtPoints) {
   for_cases({.at_points = true}, num_seeds, [&](const Case &c, Random &random) { check_apply(ceed, c, random); });
 }
@@ -102,6 +117,11 @@ TEST_P(RandomOperator, AddsAtQuadraturePoints) {
   for_cases({}, num_seeds, [&](const Case &c, Random &random) { check_apply_add(ceed, c, random); });
 }
 
+TEST_P(RandomOperator, AddsInMixedSpaces) {
+  for_cases({.mixes_spaces = true}, num_seeds,
+            [&](const Case &c, Random &random) { check_apply_add(ceed, c, random); });
+}
+
 TEST_P(RandomOperator, AddsAtPoints) {
   for_cases({.at_points = true}, num_seeds, [&](const Case &c, Random &random) { check_apply_add(ceed, c, random); });
 }
@@ -130,6 +150,11 @@ void check_assembled_qfunction(Ceed ceed, const Case &c) {
 
 TEST_P(RandomOperator, AssemblesTheQFunctionAtQuadraturePoints) {
   for_cases({.is_bilinear = true}, num_seeds, [&](const Case &c, Random &) { check_assembled_qfunction(ceed, c); });
+}
+
+TEST_P(RandomOperator, AssemblesTheQFunctionInMixedSpaces) {
+  for_cases({.is_bilinear = true, .mixes_spaces = true}, num_seeds,
+            [&](const Case &c, Random &) { check_assembled_qfunction(ceed, c); });
 }
 
 TEST_P(RandomOperator, AssemblesTheQFunctionAtPoints) {
@@ -161,6 +186,11 @@ TEST_P(RandomOperator, AssemblesTheDiagonalAtQuadraturePoints) {
             [&](const Case &c, Random &random) { check_diagonal(ceed, c, random); });
 }
 
+TEST_P(RandomOperator, AssemblesTheDiagonalInMixedSpaces) {
+  for_cases({.is_square = true, .max_comp = 4, .mixes_spaces = true}, num_seeds,
+            [&](const Case &c, Random &random) { check_diagonal(ceed, c, random); });
+}
+
 TEST_P(RandomOperator, AssemblesTheDiagonalAtPoints) {
   for_cases({.at_points = true, .is_square = true, .max_comp = 4}, num_seeds,
             [&](const Case &c, Random &random) { check_diagonal(ceed, c, random); });
@@ -182,6 +212,18 @@ void check_matrix(Ceed ceed, const Case &c) {
 
 TEST_P(RandomOperator, AssemblesTheMatrixAtQuadraturePoints) {
   for_cases({.is_square = true, .max_comp = 3}, num_seeds, [&](const Case &c, Random &) { check_matrix(ceed, c); });
+}
+
+/// Several active bases too: the matrix has a block for each pair.
+TEST_P(RandomOperator, AssemblesTheMatrixInMixedSpaces) {
+  int num_several = 0;
+  for_cases({.is_bilinear = true, .max_comp = 3, .mixes_spaces = true}, num_seeds, [&](const Case &c, Random &) {
+    check_matrix(ceed, c);
+    for (const std::vector<Field> *fields : {&c.inputs, &c.outputs}) {
+      for (const Field &field : *fields) num_several += field.is_active() && field.space != fields->front().space;
+    }
+  });
+  EXPECT_GE(num_several, 10);
 }
 
 TEST_P(RandomOperator, AssemblesTheMatrixAtPoints) {

@@ -6,9 +6,26 @@
 
 namespace hg::test {
 
+CeedEvalMode Space::derivative_mode() const {
+  return kind == CEED_FE_SPACE_H1 ? CEED_EVAL_GRAD : kind == CEED_FE_SPACE_HDIV ? CEED_EVAL_DIV : CEED_EVAL_CURL;
+}
+
+CeedInt Space::q_comp(CeedInt dim, CeedEvalMode mode) const {
+  switch (mode) {
+    case CEED_EVAL_INTERP:
+      return kind == CEED_FE_SPACE_H1 ? 1 : dim;
+    case CEED_EVAL_GRAD:
+      return dim;
+    case CEED_EVAL_CURL:
+      return dim == 3 ? 3 : 1;
+    default:
+      return 1;
+  }
+}
+
 CeedInt Case::size(const Field &field) const {
   if (field.mode == CEED_EVAL_WEIGHT) return 1;
-  return spaces[field.space].num_comp * (field.mode == CEED_EVAL_GRAD ? dim : 1);
+  return spaces[field.space].num_comp * spaces[field.space].q_comp(dim, field.mode);
 }
 
 CeedSize Case::input_size() const {
@@ -54,8 +71,10 @@ std::string describe(const Case &c) {
       if (field.mode == CEED_EVAL_WEIGHT) continue;
       const Space &space = c.spaces[field.space];
       text += field.is_active() ? " active" : " passive " + std::to_string(field.vector);
-      text += ", space " + std::to_string(field.space) + " (P_1d " + std::to_string(space.P_1d) + ", " +
-              std::to_string(space.num_comp) + " components)";
+      text += ", space " + std::to_string(field.space) + " (";
+      text += space.is_tabulated() ? std::string(CeedFESpaces[space.kind]) + ", P " + std::to_string(space.elem_size)
+                                   : "P_1d " + std::to_string(space.P_1d);
+      text += ", " + std::to_string(space.num_comp) + " components)";
     }
   }
   return text;
@@ -98,6 +117,19 @@ std::vector<std::vector<Term>> terms(const Case &c, const Field &field, CeedInt 
         result[comp].push_back({static_cast<CeedSize>(c.point_numbers[elem][q]) * space.num_comp + comp, 1});
       } else {
         add(result[comp], q, comp, 1);
+      }
+    }
+    return result;
+  }
+  if (space.is_tabulated()) {
+    const Values &matrix = field.mode == CEED_EVAL_INTERP ? space.interp : space.derivative;
+    const CeedInt Q = c.max_points();
+    for (CeedInt g = 0; g < space.q_comp(c.dim, field.mode); g++) {
+      for (CeedInt node = 0; node < space.elem_size; node++) {
+        for (CeedInt comp = 0; comp < space.num_comp; comp++) {
+          result[g * space.num_comp + comp].push_back(
+              {place(node, comp), matrix[(static_cast<std::size_t>(g) * Q + q) * space.elem_size + node]});
+        }
       }
     }
     return result;

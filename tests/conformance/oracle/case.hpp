@@ -15,7 +15,7 @@
 namespace hg::test {
 
 /// Nodes of elements in an L-vector, with the Lagrange polynomials on Gauss-Lobatto nodes as basis; or, with P_1d = 0,
-/// one node for each point and no basis.
+/// with a basis given by its matrices; or, without these, one node for each point and no basis.
 struct Space {
   CeedInt num_comp = 1, P_1d = 0;
   CeedInt elem_size = 0, comp_stride = 1;
@@ -27,6 +27,15 @@ struct Space {
   CeedRestrictionType type = CEED_RESTRICTION_STANDARD;  ///< of those with offsets
   std::vector<CeedInt8> orientation;  ///< (band, node, element): T(n,n-1), T(n,n), T(n,n+1); empty: the identity
   CeedInt block_size = 0;             ///< 0: made by a function without blocks
+  CeedFESpace kind = CEED_FE_SPACE_H1;
+  CeedElemTopology topology = CEED_TOPOLOGY_LINE;
+  Values interp, derivative;  ///< q_comp by points by nodes, if the basis is given by matrices
+
+  bool is_tabulated() const { return !interp.empty(); }
+  bool has_basis() const { return P_1d > 0 || is_tabulated(); }
+  CeedEvalMode derivative_mode() const;
+  /// Values at a point for one component.
+  CeedInt q_comp(CeedInt dim, CeedEvalMode mode) const;
 };
 
 /// One input or output.
@@ -96,6 +105,7 @@ struct CaseWishes {
   bool is_bilinear = false;  ///< with active inputs and an active output that have bases
   int max_comp = 9;
   bool is_oriented = false;  ///< elements have orientations, and come in blocks
+  bool mixes_spaces = false;  ///< bases in H^1, H(div) and H(curl) by matrices beside tensor products; not at points
 };
 Case random_case(Random &random, const CaseWishes &wishes);
 

@@ -42,7 +42,13 @@ Instance::Instance(Ceed ceed_, const Case &c) : ceed(ceed_) {
   for (const Space &space : c.spaces) {
     restrictions.push_back(make_restriction(ceed, c, space));
     bases.emplace_back();
-    if (space.P_1d > 0) {
+    if (space.is_tabulated()) {
+      const auto create = space.kind == CEED_FE_SPACE_H1     ? CeedBasisCreateH1
+                          : space.kind == CEED_FE_SPACE_HDIV ? CeedBasisCreateHdiv
+                                                             : CeedBasisCreateHcurl;
+      ok(create(ceed, space.topology, space.num_comp, space.elem_size, c.max_points(), space.interp.data(),
+                space.derivative.data(), nullptr, nullptr, bases.back().out()));
+    } else if (space.has_basis()) {
       ok(CeedBasisCreateTensorH1Lagrange(ceed, c.dim, space.num_comp, space.P_1d, c.Q_1d, c.quad_mode,
                                          bases.back().out()));
     }

@@ -7,6 +7,21 @@
 namespace hg::test {
 namespace {
 
+/// Gives the elements of a space nodes of an L-vector at random.
+void place_nodes(Space &space, const Case &c, Random &random, CeedInt num_nodes) {
+  const bool is_interleaved = random.chance(0.5);
+  space.comp_stride = is_interleaved ? 1 : num_nodes;
+  for (CeedInt e = 0; e < c.num_elem; e++) {
+    for (const CeedInt node : random.distinct(space.elem_size, num_nodes)) {
+      space.offsets.push_back(is_interleaved ? node * space.num_comp : node);
+    }
+  }
+}
+
+CeedInt shared_nodes(const Space &space, const Case &c, Random &random) {
+  return space.elem_size + random.integer(0, std::max(1, c.num_elem * space.elem_size / 2));
+}
+
 /// A space with a basis: elements share nodes at random. l_size > 0 asks for an L-vector of that length.
 Space random_space(const Case &c, Random &random, CeedInt num_comp, CeedSize l_size) {
   static const CeedInt max_P_1d[] = {0, 6, 4, 3};
@@ -14,7 +29,7 @@ Space random_space(const Case &c, Random &random, CeedInt num_comp, CeedSize l_s
   space.num_comp = num_comp;
   space.P_1d = random.integer(2, c.at_points ? std::min(max_P_1d[c.dim], c.Q_1d) : max_P_1d[c.dim]);
   space.elem_size = CeedIntPow(space.P_1d, c.dim);
-  CeedInt num_nodes = space.elem_size + random.integer(0, std::max(1, c.num_elem * space.elem_size / 2));
+  CeedInt num_nodes = shared_nodes(space, c, random);
   if (l_size > 0) {
     // As many nodes as fit; some entries may belong to none.
     while (space.elem_size * num_comp > l_size && space.num_comp > 1) num_comp = --space.num_comp;
@@ -25,13 +40,34 @@ Space random_space(const Case &c, Random &random, CeedInt num_comp, CeedSize l_s
     num_nodes = static_cast<CeedInt>(l_size / num_comp);
   }
   space.l_size = l_size > 0 ? l_size : static_cast<CeedSize>(num_nodes) * num_comp;
-  const bool is_interleaved = random.chance(0.5);
-  space.comp_stride = is_interleaved ? 1 : num_nodes;
-  for (CeedInt e = 0; e < c.num_elem; e++) {
-    for (const CeedInt node : random.distinct(space.elem_size, num_nodes)) {
-      space.offsets.push_back(is_interleaved ? node * num_comp : node);
-    }
+  place_nodes(space, c, random, num_nodes);
+  return space;
+}
+
+/// The same with random matrices for a basis, in H^1, H(div) or H(curl).
+Space tabulated_space(const Case &c, Random &random, CeedInt num_comp, CeedSize l_size) {
+  static const std::vector<CeedElemTopology> topologies[] = {
+      {},
+      {CEED_TOPOLOGY_LINE},
+      {CEED_TOPOLOGY_TRIANGLE, CEED_TOPOLOGY_QUAD},
+      {CEED_TOPOLOGY_TET, CEED_TOPOLOGY_PYRAMID, CEED_TOPOLOGY_PRISM, CEED_TOPOLOGY_HEX}};
+  const auto &shapes = topologies[c.dim];
+  Space space;
+  space.kind = static_cast<CeedFESpace>(random.integer(CEED_FE_SPACE_H1, CEED_FE_SPACE_HCURL));
+  space.topology = shapes[random.integer(0, static_cast<CeedInt>(shapes.size()) - 1)];
+  space.num_comp = std::min<CeedInt>(num_comp, 4);
+  space.elem_size = random.integer(1, 12);
+  CeedInt num_nodes = shared_nodes(space, c, random);
+  if (l_size > 0) {
+    space.num_comp = static_cast<CeedInt>(std::min<CeedSize>(space.num_comp, l_size));
+    num_nodes = static_cast<CeedInt>(l_size / space.num_comp);
+    space.elem_size = std::min(space.elem_size, num_nodes);
   }
+  space.l_size = l_size > 0 ? l_size : static_cast<CeedSize>(num_nodes) * space.num_comp;
+  const CeedSize size = static_cast<CeedSize>(c.max_points()) * space.elem_size;
+  space.interp = random.reals(space.q_comp(c.dim, CEED_EVAL_INTERP) * size);
+  space.derivative = random.reals(space.q_comp(c.dim, space.derivative_mode()) * size);
+  place_nodes(space, c, random, num_nodes);
   return space;
 }
 
@@ -96,17 +132,29 @@ class Builder {
     return true;
   }
   CeedInt comps(CeedInt high = 9) { return random_.integer(1, std::min<CeedInt>(high, wishes_.max_comp)); }
-  CeedEvalMode interp_or_grad() { return random_.chance(0.5) ? CEED_EVAL_INTERP : CEED_EVAL_GRAD; }
+  CeedEvalMode any_mode(int space) {
+    return random_.chance(0.5) ? CEED_EVAL_INTERP : c_.spaces[space].derivative_mode();
+  }
+  CeedEvalMode other_mode(int space, CeedEvalMode mode) const {
+    return mode == CEED_EVAL_INTERP ? c_.spaces[space].derivative_mode() : CEED_EVAL_INTERP;
+  }
+  /// A space with a basis; l_size > 0 asks for an L-vector of that length.
+  int add_basis_space(CeedInt num_comp, CeedSize l_size = 0) {
+    // A tensor product has 2^dim nodes at least; matrices may have fewer.
+    const bool is_too_small = l_size > 0 && l_size < CeedIntPow(2, c_.dim);
+    const bool is_tabulated = is_too_small || (wishes_.mixes_spaces && random_.chance(0.6));
+    return add_space(is_tabulated ? tabulated_space(c_, random_, num_comp, l_size)
+                                  : random_space(c_, random_, num_comp, l_size));
+  }
 
   /// Active fields of one space, or of a second one with an L-vector of the same length.
   void add_active(std::vector<Field> &fields, int space) {
-    add(fields, interp_or_grad(), space, -1);
-    if (random_.chance(0.5)) {
-      add(fields, fields.back().mode == CEED_EVAL_GRAD ? CEED_EVAL_INTERP : CEED_EVAL_GRAD, space, -1);
-    }
+    const CeedEvalMode mode = any_mode(space);
+    add(fields, mode, space, -1);
+    if (random_.chance(0.5)) add(fields, other_mode(space, mode), space, -1);
     if (!wishes_.is_square && random_.chance(0.3)) {
-      const int other = add_space(random_space(c_, random_, comps(3), c_.spaces[space].l_size));
-      add(fields, interp_or_grad(), other, -1);
+      const int other = add_basis_space(comps(3), c_.spaces[space].l_size);
+      add(fields, any_mode(other), other, -1);
     }
   }
 
@@ -124,22 +172,22 @@ class Builder {
       if (random_.chance(0.3)) add(c_.inputs, CEED_EVAL_NONE, space, add_vector(space));
     }
     if (random_.chance(0.5) || c_.inputs.empty()) {
-      const int space = add_space(random_space(c_, random_, comps(3), 0));
+      const int space = add_basis_space(comps(3));
       const int vector = add_vector(space);
       add(c_.inputs, CEED_EVAL_INTERP, space, vector);
       // The same values again, and another vector of the same space.
-      if (random_.chance(0.5)) add(c_.inputs, CEED_EVAL_GRAD, space, vector);
+      if (random_.chance(0.5)) add(c_.inputs, c_.spaces[space].derivative_mode(), space, vector);
       if (random_.chance(0.3)) add(c_.inputs, CEED_EVAL_INTERP, space, add_vector(space));
     }
     // The active space with a passive vector.
-    if (random_.chance(0.3)) add(c_.inputs, interp_or_grad(), active_space, add_vector(active_space));
+    if (random_.chance(0.3)) add(c_.inputs, any_mode(active_space), active_space, add_vector(active_space));
   }
 
   void add_outputs(int active_space) {
     const int kind = wishes_.is_square || wishes_.is_bilinear ? 0 : random_.integer(0, 9);
     if (kind < 7) {
       const bool is_same = wishes_.is_square || random_.chance(0.5);
-      add_active(c_.outputs, is_same ? active_space : add_space(random_space(c_, random_, comps(), 0)));
+      add_active(c_.outputs, is_same ? active_space : add_basis_space(comps()));
     } else if (kind < 9) {
       add(c_.outputs, CEED_EVAL_NONE, add_space(point_space(c_, random_, comps())), -1);
     }
@@ -148,8 +196,8 @@ class Builder {
       add(c_.outputs, CEED_EVAL_NONE, space, add_vector(space));
     }
     if (!wishes_.is_square && random_.chance(0.2)) {
-      const int space = add_space(random_space(c_, random_, comps(3), 0));
-      add(c_.outputs, interp_or_grad(), space, add_vector(space));
+      const int space = add_basis_space(comps(3));
+      add(c_.outputs, any_mode(space), space, add_vector(space));
     }
   }
 
@@ -228,7 +276,7 @@ Case random_case(Random &random, const CaseWishes &wishes) {
     place_quadrature_points(c);
   }
   Builder builder(c, random, wishes);
-  const int active_space = builder.add_space(random_space(c, random, builder.comps(), 0));
+  const int active_space = builder.add_basis_space(builder.comps());
   builder.add_inputs(active_space);
   builder.add_outputs(active_space);
 
