@@ -68,7 +68,10 @@ void check_basis_field(const CeedOperator_private &op, const char *name, CeedInt
                 name, CeedEvalModes[mode], CeedFESpaces[basis->fe_space], CeedEvalModes[CEED_EVAL_INTERP],
                 CeedEvalModes[hg::derivative_mode(basis->fe_space)]);
   });
-  hg::require_evaluation(*basis, mode);
+  require(mode == CEED_EVAL_INTERP || basis->is_tensor || !basis->derivative.empty(), CEED_ERROR_UNSUPPORTED, [&] {
+    return text("CeedOperator '%s' field '%s' of mode %s: the basis was made without a matrix for it", op.shown_name(),
+                name, CeedEvalModes[mode]);
+  });
   const CeedInt expected = basis->num_comp * hg::q_components(*basis, mode);
   require(size == expected, CEED_ERROR_DIMENSION, [&] {
     return text("CeedOperator '%s' field '%s' of mode %s: the QFunction gives size %" CeedInt_FMT
