@@ -85,6 +85,8 @@ TEST_P(RandomOperator, AppliesWithOrientations) {
   for_cases({.is_oriented = true}, num_seeds, [&](const Case &c, Random &random) { check_apply(ceed, c, random); });
   for_cases({.at_points = true, .is_oriented = true}, num_seeds,
             [&](const Case &c, Random &random) { check_apply(ceed, c, random); });
+  for_cases({.is_oriented = true, .mixes_spaces = true}, num_seeds,
+            [&](const Case &c, Random &random) { check_apply(ceed, c, random); });
 }
 
 void check_apply_add(Ceed ceed, const Case &c, Random &random) {
@@ -201,6 +203,8 @@ TEST_P(RandomOperator, AssemblesTheDiagonalWithOrientations) {
     for_cases({.at_points = at_points, .is_square = true, .max_comp = 4, .is_oriented = true}, num_seeds,
               [&](const Case &c, Random &random) { check_diagonal(ceed, c, random); });
   }
+  for_cases({.is_square = true, .max_comp = 4, .is_oriented = true, .mixes_spaces = true}, num_seeds,
+            [&](const Case &c, Random &random) { check_diagonal(ceed, c, random); });
 }
 
 void check_matrix(Ceed ceed, const Case &c) {
@@ -236,6 +240,8 @@ TEST_P(RandomOperator, AssemblesTheMatrixWithOrientations) {
     for_cases({.at_points = at_points, .is_square = true, .max_comp = 3, .is_oriented = true}, num_seeds,
               [&](const Case &c, Random &) { check_matrix(ceed, c); });
   }
+  for_cases({.is_bilinear = true, .max_comp = 3, .is_oriented = true, .mixes_spaces = true}, num_seeds,
+            [&](const Case &c, Random &) { check_matrix(ceed, c); });
 }
 
 TEST_P(RandomOperator, SaysItsSizes) {

@@ -127,8 +127,8 @@ std::vector<std::vector<Term>> terms(const Case &c, const Field &field, CeedInt 
     for (CeedInt g = 0; g < space.q_comp(c.dim, field.mode); g++) {
       for (CeedInt node = 0; node < space.elem_size; node++) {
         for (CeedInt comp = 0; comp < space.num_comp; comp++) {
-          result[g * space.num_comp + comp].push_back(
-              {place(node, comp), matrix[(static_cast<std::size_t>(g) * Q + q) * space.elem_size + node]});
+          add(result[g * space.num_comp + comp], node, comp,
+              matrix[(static_cast<std::size_t>(g) * Q + q) * space.elem_size + node]);
         }
       }
     }
