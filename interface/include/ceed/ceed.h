@@ -535,9 +535,20 @@ CEED_EXTERN int CeedOperatorLinearAssembleQFunction(CeedOperator op, CeedVector 
 /// The same into the objects of an earlier call where they are not NULL.
 CEED_EXTERN int CeedOperatorLinearAssembleQFunctionBuildOrUpdate(CeedOperator op, CeedVector *assembled,
                                                                  CeedElemRestriction *rstr, CeedRequest *request);
-/// Diagonal of the linear operator, active input and output in one space.
+/// Diagonal of a linear operator, active input and output of one length.
 CEED_EXTERN int CeedOperatorLinearAssembleDiagonal(CeedOperator op, CeedVector assembled, CeedRequest *request);
 CEED_EXTERN int CeedOperatorLinearAssembleAddDiagonal(CeedOperator op, CeedVector assembled, CeedRequest *request);
+/// Point-block diagonal: for each node the num_comp by num_comp matrix that couples its components, row-major, row by
+/// output. All active fields have num_comp components, equally far apart. `assembled` has num_comp times the length of
+/// the active vectors; where components are N = length/num_comp entries apart, or 1, the blocks follow each other node
+/// by node. In all cases the symbolic form says which row and column each entry belongs to; an entry that belongs to no
+/// node is 0, and has row and column 0. The caller frees rows and cols with free().
+CEED_EXTERN int CeedOperatorLinearAssemblePointBlockDiagonal(CeedOperator op, CeedVector assembled,
+                                                             CeedRequest *request);
+CEED_EXTERN int CeedOperatorLinearAssembleAddPointBlockDiagonal(CeedOperator op, CeedVector assembled,
+                                                                CeedRequest *request);
+CEED_EXTERN int CeedOperatorLinearAssemblePointBlockDiagonalSymbolic(CeedOperator op, CeedSize *num_entries,
+                                                                     CeedInt **rows, CeedInt **cols);
 /// Rows and columns of all element entries in coordinate form; several entries may meet. The caller frees both arrays
 /// with free().
 CEED_EXTERN int CeedOperatorLinearAssembleSymbolic(CeedOperator op, CeedSize *num_entries, CeedInt **rows,

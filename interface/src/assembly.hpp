@@ -1,0 +1,155 @@
+/// @file
+/// What all kinds of assembly share. The QFunction becomes a matrix D(q) at each point q, which is contracted with the
+/// bases:
+///
+///   K[(r,m),(c,n)] = Σ_q Σ_(l,k) B_l(q,m) D(q)[value(l,r), value(k,c)] B_k(q,n),
+///
+/// where k runs over the values and derivatives of the trial functions that the active inputs take, l over those of the
+/// test functions, and B_k(q,n) is that of function n at point q. Quadrature points and material points differ only in
+/// how B is tabulated.
+#pragma once
+
+#include <cstdlib>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "operator.hpp"
+
+namespace hg {
+
+/// Points of element e.
+CeedInt num_points(const CeedProgram &program, CeedInt e);
+/// Throws unless there are an active input and an active output.
+void require_linearisable(const CeedOperator_private &op, const CeedProgram &program);
+
+/// The matrix of the QFunction at the points of an element, seen from either layout.
+class PointMatrices {
+ public:
+  PointMatrices(const CeedProgram &program, const CeedScalar *element_values, CeedInt Q)
+      : values_(element_values), num_out_(program.num_active_out),
+        point_stride_(program.at_points ? program.num_active_in * program.num_active_out : 1),
+        component_stride_(program.at_points ? 1 : Q) {}
+  /// Derivative of output value o by input value i at point q.
+  CeedScalar operator()(CeedInt q, CeedInt i, CeedInt o) const {
+    return values_[static_cast<CeedSize>(q) * point_stride_ + static_cast<CeedSize>(i * num_out_ + o) * component_stride_];
+  }
+
+ private:
+  const CeedScalar *values_;
+  CeedInt num_out_;
+  CeedSize point_stride_, component_stride_;
+};
+
+/// Calls visit(e, Q, D) for each element with its Q points and its assembled QFunction: from what is kept where the user
+/// asked for reuse, else assembled for some elements after others, so that memory does not grow with the mesh.
+void for_each_assembled_element(CeedOperator_private &op, const CeedProgram &program,
+                                const std::function<void(CeedInt, CeedInt, const PointMatrices &)> &visit);
+
+/// Functions in one evaluation mode, at the points of an element: value d of function n at point q is
+/// values[q*point_stride + d*value_stride + n].
+struct FunctionValues {
+  const CeedScalar *values = nullptr;
+  CeedSize point_stride = 0, value_stride = 0;
+};
+
+/// What the active fields of a program need of their bases, at the points of one element after another. Each space is
+/// tabulated once for an element, however many fields use it. Functions of oriented restrictions are turned: they
+/// belong to the entries of the L-vector.
+class Tabulation {
+ public:
+  explicit Tabulation(const CeedProgram &program);
+  Tabulation(const Tabulation &) = delete;
+  Tabulation &operator=(const Tabulation &) = delete;
+  void move_to(CeedInt e);
+  /// The functions that a field takes; rstr: that of its source or sink. The reference holds as long as the object.
+  const FunctionValues &operator()(const CeedProgramField &field, const CeedElemRestriction_private &rstr) const;
+
+ private:
+  struct Space {
+    const CeedElemRestriction_private *rstr = nullptr;
+    CeedBasis_private *basis = nullptr;  ///< NULL: no active field uses the space
+    bool is_interpolated = false, is_derived = false;
+    FunctionValues interp, derivative;
+    std::vector<CeedScalar> own_interp, own_derivative;  ///< where the values change from element to element
+  };
+  /// CEED_EVAL_NONE with an oriented restriction: nodes are points.
+  struct TurnedNodes {
+    const CeedElemRestriction_private *rstr;
+    std::vector<CeedScalar> own;
+    FunctionValues values;
+  };
+  void tabulate_at_points(CeedInt e, Space &space);
+  void turn(CeedInt e, Space &space);
+  void add_nodes(const CeedElemRestriction_private &rstr);
+
+  const CeedProgram &program_;
+  std::optional<ReadArray> points_;
+  std::vector<Space> spaces_;
+  std::deque<TurnedNodes> turned_nodes_;
+  FunctionValues identity_;  ///< of CEED_EVAL_NONE
+  std::vector<CeedScalar> identity_values_, values_1d_, work_;
+};
+
+/// The functions of one active source or sink as rows: one for each field and value of a field.
+class Functions {
+ public:
+  /// `tabulation` is read as it moves. side: index in program.sources (is_trial) or program.sinks.
+  Functions(const CeedProgram &program, const Tabulation &tabulation, bool is_trial, CeedInt side);
+
+  const CeedElemRestriction_private &rstr() const { return *rstr_; }
+  CeedInt num_comp() const { return rstr_->num_comp; }
+  CeedInt num_rows() const { return static_cast<CeedInt>(rows_.size()); }
+  /// Active value of component c in row k.
+  CeedInt value(CeedInt k, CeedInt c) const { return rows_[k].first_value + c; }
+  /// Row k at point q: the values of all functions.
+  const CeedScalar *row(CeedInt k, CeedInt q) const {
+    const FunctionValues &f = *rows_[k].functions;
+    return f.values + q * f.point_stride + rows_[k].d * f.value_stride;
+  }
+
+ private:
+  struct Row {
+    const FunctionValues *functions;
+    CeedInt d, first_value;
+  };
+  const CeedElemRestriction_private *rstr_;
+  std::vector<Row> rows_;
+};
+
+/// The coupling of one active source with one active sink.
+struct Coupling {
+  Functions trial, test;
+
+  CeedSize num_entries(CeedInt e) const {
+    return static_cast<CeedSize>(trial.rstr().num_nodes(e)) * trial.num_comp() * test.rstr().num_nodes(e) * test.num_comp();
+  }
+};
+/// All couplings, in the order of the entries of the assembled matrix: by source, then by sink.
+std::vector<Coupling> couplings(const CeedProgram &program, const Tabulation &tabulation);
+
+/// Rows and columns of entries, for the user to free with free().
+struct IndexArrays {
+  struct Free {
+    void operator()(CeedInt *array) const noexcept { std::free(array); }
+  };
+  std::unique_ptr<CeedInt[], Free> rows, cols;
+};
+/// Throws, naming the operator and the count, where there is no memory.
+IndexArrays allocate_indices(const CeedOperator_private &op, CeedSize count);
+/// Throws unless the places in the active vectors are numbers of the type CeedInt.
+void require_index_range(CeedOperator_private &op);
+
+/// Element matrices of couplings.
+class ElementMatrix {
+ public:
+  /// K: rows (component, node) of the test functions, columns (component, node) of the trial functions, row-major; it is
+  /// overwritten.
+  void compute(const Coupling &coupling, CeedInt e, CeedInt Q, const PointMatrices &D, CeedScalar *K);
+
+ private:
+  std::vector<CeedScalar> test_, DB_;
+};
+
+}  // namespace hg

@@ -1,0 +1,306 @@
+// Diagonals, and blocks on the diagonal that couple the components of a node.
+#include <algorithm>
+
+#include "assembly.hpp"
+
+namespace {
+
+using hg::require;
+using hg::text;
+
+/// Where the entries of a point-block diagonal stand: num_comp^2 values for each node, row-major. Blocks follow each
+/// other as the nodes do whose component 0 stands at `node` in an L-vector where components are comp_stride apart.
+struct BlockLayout {
+  CeedInt num_comp = 1;
+  CeedSize comp_stride = 1;
+
+  CeedSize block(CeedSize node) const {
+    if (num_comp == 1) return node;
+    // Components next to each other: each entry of the L-vector has its row of the block. Else, nodes come in stacks of
+    // comp_stride, component after component.
+    if (comp_stride == 1) return node * num_comp;
+    return (node / (comp_stride * num_comp) * comp_stride + node % comp_stride) * num_comp * num_comp;
+  }
+};
+
+CeedSize comp_stride_of(const CeedElemRestriction_private &rstr) {
+  return rstr.is_strided() ? rstr.strides[1] : rstr.comp_stride;
+}
+
+/// One layout for all active fields of the operator, which is square.
+BlockLayout block_layout(CeedOperator_private &op) {
+  BlockLayout layout;
+  bool is_known = false;
+  hg::for_each_single(op, [&](CeedOperator_private &single) {
+    const CeedProgram &program = hg::program_of(single);
+    const auto agree = [&](const CeedProgramSide *sides, CeedInt count) {
+      for (CeedInt i = 0; i < count; i++) {
+        if (!sides[i].is_active) continue;
+        const CeedElemRestriction_private &rstr = *sides[i].rstr;
+        const CeedSize comp_stride = comp_stride_of(rstr);
+        if (!is_known) layout = {rstr.num_comp, comp_stride};
+        is_known = true;
+        require(rstr.num_comp == 1 || comp_stride > 0, CEED_ERROR_INCOMPATIBLE, [&] {
+          return text("CeedOperator '%s': the components of an active field are 0 entries apart; point blocks need them "
+                      "apart",
+                      single.shown_name());
+        });
+        require(rstr.num_comp == layout.num_comp && (rstr.num_comp == 1 || comp_stride == layout.comp_stride),
+                CEED_ERROR_INCOMPATIBLE, [&] {
+                  return text("CeedOperator '%s': an active field has %" CeedInt_FMT " components, %" CeedSize_FMT
+                              " entries apart; one before it has %" CeedInt_FMT ", %" CeedSize_FMT
+                              " apart. Point blocks need nodes of one kind",
+                              single.shown_name(), rstr.num_comp, comp_stride, layout.num_comp, layout.comp_stride);
+                });
+      }
+    };
+    agree(program.sources, program.num_sources);
+    agree(program.sinks, program.num_sinks);
+  });
+  return layout;
+}
+
+/// Pairs of components whose entries are wanted: (c, c) for a diagonal, all for blocks.
+struct ComponentPair {
+  CeedInt row, column;
+};
+
+std::vector<ComponentPair> component_pairs(CeedInt num_comp, bool is_block) {
+  std::vector<ComponentPair> pairs;
+  for (CeedInt r = 0; r < num_comp; r++) {
+    for (CeedInt c = 0; c < num_comp; c++) {
+      if (is_block || r == c) pairs.push_back({r, c});
+    }
+  }
+  return pairs;
+}
+
+/// Entry i*P + n: that of node n with itself for pair i. Flops: for each point and each pair of rows, P for the product
+/// of the functions and 2 P for each pair of components, which is the floor without sum factorisation.
+void element_diagonal(const hg::Coupling &coupling, CeedInt P, CeedInt Q, const hg::PointMatrices &D,
+                      const std::vector<ComponentPair> &pairs, std::vector<CeedScalar> &product,
+                      std::vector<CeedScalar> &entries) {
+  const hg::Functions &trial = coupling.trial, &test = coupling.test;
+  entries.assign(pairs.size() * P, 0.0);
+  product.resize(P);
+  for (CeedInt q = 0; q < Q; q++) {
+    for (CeedInt k = 0; k < trial.num_rows(); k++) {
+      for (CeedInt l = 0; l < test.num_rows(); l++) {
+        const CeedScalar *b = trial.row(k, q), *t = test.row(l, q);
+        for (CeedInt n = 0; n < P; n++) product[n] = t[n] * b[n];
+        CeedScalar *to = entries.data();
+        for (const ComponentPair &pair : pairs) {
+          const CeedScalar d = D(q, trial.value(k, pair.column), test.value(l, pair.row));
+          for (CeedInt n = 0; n < P; n++) to[n] += d * product[n];
+          to += P;
+        }
+      }
+    }
+  }
+}
+
+/// Places in the L-vector of all components of an element's nodes, sorted.
+void sorted_places(const CeedElemRestriction_private &rstr, CeedInt e, std::vector<CeedSize> &places) {
+  places.clear();
+  for (CeedInt n = 0; n < rstr.num_nodes(e); n++) {
+    for (CeedInt c = 0; c < rstr.num_comp; c++) places.push_back(rstr.place(e, n, c));
+  }
+  std::sort(places.begin(), places.end());
+}
+
+bool has_common_entry(const std::vector<CeedSize> &a, const std::vector<CeedSize> &b) {
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+    if (*i == *j) return true;
+    (*i < *j ? i : j)++;
+  }
+  return false;
+}
+
+/// Adds entries of one operator. is_block: array has the layout of the blocks, else it is the diagonal.
+class Adder {
+ public:
+  Adder(CeedScalar *array, bool is_block, const BlockLayout &layout) : array_(array), is_block_(is_block), layout_(layout) {}
+
+  void add(const hg::Coupling &coupling, CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
+    const CeedElemRestriction_private &trial = coupling.trial.rstr(), &test = coupling.test.rstr();
+    const bool is_one_space = &trial == &test || hg::equal(trial, test);
+    sorted_places(trial, e, trial_places_);
+    const bool is_simple =
+        is_one_space && std::adjacent_find(trial_places_.begin(), trial_places_.end()) == trial_places_.end();
+    if (is_simple) return add_simple(coupling, e, Q, D);
+    if (!is_one_space) {
+      sorted_places(test, e, test_places_);
+      if (!has_common_entry(trial_places_, test_places_)) return;
+    }
+    add_matching(coupling, e, Q, D);
+  }
+
+ private:
+  /// Each node meets itself alone.
+  void add_simple(const hg::Coupling &coupling, CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
+    const CeedElemRestriction_private &rstr = coupling.trial.rstr();
+    const CeedInt P = rstr.num_nodes(e);
+    if (pairs_.empty()) pairs_ = component_pairs(rstr.num_comp, is_block_);
+    element_diagonal(coupling, P, Q, D, pairs_, product_, entries_);
+    for (std::size_t i = 0; i < pairs_.size(); i++) {
+      for (CeedInt n = 0; n < P; n++) array_[place(rstr, e, n, pairs_[i])] += entries_[i * P + n];
+    }
+  }
+
+  /// Two spaces that share entries of the L-vector, or elements that meet a node twice: entries of the element's matrix
+  /// whose row and column are one place, or belong to one node.
+  void add_matching(const hg::Coupling &coupling, CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
+    const CeedElemRestriction_private &trial = coupling.trial.rstr(), &test = coupling.test.rstr();
+    entries_.resize(static_cast<std::size_t>(coupling.num_entries(e)));
+    matrix_.compute(coupling, e, Q, D, entries_.data());
+    const CeedScalar *entry = entries_.data();
+    for (CeedInt r = 0; r < test.num_comp; r++) {
+      for (CeedInt m = 0; m < test.num_nodes(e); m++) {
+        for (CeedInt c = 0; c < trial.num_comp; c++) {
+          for (CeedInt n = 0; n < trial.num_nodes(e); n++, entry++) {
+            const CeedInt row = is_block_ ? 0 : r, column = is_block_ ? 0 : c;
+            if (test.place(e, m, row) == trial.place(e, n, column)) array_[place(test, e, m, {r, c})] += *entry;
+          }
+        }
+      }
+    }
+  }
+
+  CeedSize place(const CeedElemRestriction_private &rstr, CeedInt e, CeedInt n, const ComponentPair &pair) const {
+    if (!is_block_) return rstr.place(e, n, pair.row);
+    return layout_.block(rstr.place(e, n, 0)) + static_cast<CeedSize>(pair.row) * layout_.num_comp + pair.column;
+  }
+
+  CeedScalar *array_;
+  bool is_block_;
+  BlockLayout layout_;
+  hg::ElementMatrix matrix_;
+  std::vector<ComponentPair> pairs_;
+  std::vector<CeedSize> trial_places_, test_places_;
+  std::vector<CeedScalar> product_, entries_;
+};
+
+void add_entries(CeedOperator_private &op, CeedVector assembled, bool is_block, const BlockLayout &layout) {
+  const CeedProgram &program = hg::program_of(op);
+  if (program.num_elem == 0) return;
+  if (!is_block && op.ceed->ops.op.linear_assemble_add_diagonal != nullptr) {
+    hg::check(op.ceed->ops.op.linear_assemble_add_diagonal(&op, &program, assembled));
+    return;
+  }
+  hg::Tabulation tabulation(program);
+  const auto all = hg::couplings(program, tabulation);
+  const hg::WriteArray array(assembled);
+  // The pairs of components depend on the space, so each coupling has its own.
+  std::vector<Adder> adders(all.size(), Adder(array.data(), is_block, layout));
+  hg::for_each_assembled_element(op, program, [&](CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
+    if (Q == 0) return;
+    tabulation.move_to(e);
+    for (std::size_t i = 0; i < all.size(); i++) adders[i].add(all[i], e, Q, D);
+  });
+}
+
+/// Where entries go; nothing for a composite without sub-operators, whose vectors may have any length.
+struct Target {
+  CeedSize length;
+  BlockLayout layout;
+};
+
+std::optional<Target> target_of(CeedOperator op, bool is_block) {
+  const char *what = is_block ? "point-block diagonal" : "diagonal";
+  CeedSize in = -1, out = -1;
+  hg::check_ready(hg::deref(op, "CeedOperator"));
+  if (op->is_composite && op->subs.empty()) return {};
+  hg::check(CeedOperatorGetActiveVectorLengths(op, &in, &out));
+  require(in >= 0 && out >= 0, CEED_ERROR_INCOMPATIBLE, [&] {
+    return text("CeedOperator '%s' has no active %s; a %s needs an active input and an active output", op->shown_name(),
+                in < 0 ? "input" : "output", what);
+  });
+  require(in == out, CEED_ERROR_DIMENSION, [&] {
+    return text("CeedOperator '%s': a %s needs a square operator; its active input has length %" CeedSize_FMT
+                ", its output %" CeedSize_FMT,
+                op->shown_name(), what, in, out);
+  });
+  if (!is_block) return Target{out, {}};
+  const BlockLayout layout = block_layout(*op);
+  return Target{out * layout.num_comp, layout};
+}
+
+void assemble(CeedOperator op, CeedVector assembled, bool is_block, bool is_added) {
+  const auto target = target_of(op, is_block);
+  hg::deref(assembled, "vector of the diagonal");
+  require(!target || assembled->length == target->length, CEED_ERROR_DIMENSION, [&] {
+    return text("CeedOperator '%s': the vector of the %s has length %" CeedSize_FMT "; expected %" CeedSize_FMT,
+                op->shown_name(), is_block ? "point-block diagonal" : "diagonal", assembled->length, target->length);
+  });
+  if (!is_added) hg::check(CeedVectorSetValue(assembled, 0.0));
+  if (!target) return;
+  hg::for_each_single(*op, [&](CeedOperator_private &single) {
+    add_entries(single, assembled, is_block, target->layout);
+  });
+}
+
+/// Rows and columns of the blocks of a space; -1 stands where no block has been. Two nodes in one place would make the
+/// sum of their blocks meaningless.
+void block_indices(const CeedOperator_private &op, const CeedElemRestriction_private &rstr, const BlockLayout &layout,
+                   CeedInt *rows, CeedInt *cols) {
+  const CeedInt num_comp = layout.num_comp;
+  for (CeedInt e = 0; e < rstr.num_elem; e++) {
+    for (CeedInt n = 0; n < rstr.num_nodes(e); n++) {
+      const CeedSize block = layout.block(rstr.place(e, n, 0));
+      for (CeedInt i = 0; i < num_comp * num_comp; i++) {
+        const auto row = static_cast<CeedInt>(rstr.place(e, n, i / num_comp)),
+                   col = static_cast<CeedInt>(rstr.place(e, n, i % num_comp));
+        require(rows[block + i] < 0 || (rows[block + i] == row && cols[block + i] == col), CEED_ERROR_INCOMPATIBLE, [&] {
+          return text("CeedOperator '%s': node %" CeedInt_FMT " of element %" CeedInt_FMT
+                      " shares some but not all entries of the L-vector with another node; expected nodes that are one "
+                      "or apart, %" CeedInt_FMT " components %" CeedSize_FMT " entries apart",
+                      op.shown_name(), n, e, num_comp, layout.comp_stride);
+        });
+        rows[block + i] = row;
+        cols[block + i] = col;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int CeedOperatorLinearAssembleDiagonal(CeedOperator op, CeedVector assembled, CeedRequest *) {
+  return hg::guard(hg::ceed_of(op), [&] { assemble(op, assembled, false, false); });
+}
+
+int CeedOperatorLinearAssembleAddDiagonal(CeedOperator op, CeedVector assembled, CeedRequest *) {
+  return hg::guard(hg::ceed_of(op), [&] { assemble(op, assembled, false, true); });
+}
+
+int CeedOperatorLinearAssemblePointBlockDiagonal(CeedOperator op, CeedVector assembled, CeedRequest *) {
+  return hg::guard(hg::ceed_of(op), [&] { assemble(op, assembled, true, false); });
+}
+
+int CeedOperatorLinearAssembleAddPointBlockDiagonal(CeedOperator op, CeedVector assembled, CeedRequest *) {
+  return hg::guard(hg::ceed_of(op), [&] { assemble(op, assembled, true, true); });
+}
+
+int CeedOperatorLinearAssemblePointBlockDiagonalSymbolic(CeedOperator op, CeedSize *num_entries, CeedInt **rows,
+                                                         CeedInt **cols) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    const Target target = target_of(op, true).value_or(Target{0, {}});
+    hg::require_index_range(*op);
+    auto indices = hg::allocate_indices(*op, target.length);
+    std::fill_n(indices.rows.get(), target.length, -1);
+    std::fill_n(indices.cols.get(), target.length, -1);
+    hg::for_each_single(*op, [&](CeedOperator_private &single) {
+      const CeedProgram &program = hg::program_of(single);
+      for (CeedInt t = 0; t < program.num_sinks; t++) {
+        if (!program.sinks[t].is_active) continue;
+        block_indices(single, *program.sinks[t].rstr, target.layout, indices.rows.get(), indices.cols.get());
+      }
+    });
+    // What belongs to no node is a zero on the first entry.
+    std::replace(indices.rows.get(), indices.rows.get() + target.length, -1, 0);
+    std::replace(indices.cols.get(), indices.cols.get() + target.length, -1, 0);
+    *num_entries = target.length;
+    *rows = indices.rows.release();
+    *cols = indices.cols.release();
+  });
+}
