@@ -1,6 +1,9 @@
 // The life of element restrictions, and applying them.
 #include "restriction.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "vector.hpp"
 
 namespace {
@@ -43,7 +46,35 @@ void apply_blocks(CeedElemRestriction_private &r, CeedInt first_block, CeedInt n
   if (e_size > 0) hg::check(r.ops().apply(&r, first_block, num_block, t_mode, u, ru));
 }
 
+/// Another restriction that reads the tables of `r`; show_to_backend() is to follow.
+hg::Ref<CeedElemRestriction_private> copy_of(CeedElemRestriction_private &r) {
+  auto copy = hg::Ref<CeedElemRestriction_private>::adopt(new CeedElemRestriction_private);
+  static_cast<CeedElementMap &>(*copy) = r;
+  copy->ceed = r.ceed;
+  copy->num_points = r.num_points;
+  copy->has_backend_strides = r.has_backend_strides;
+  copy->base = r.base ? r.base : hg::Ref(&r);
+  return copy;
+}
+
+void drop_orientation(CeedElemRestriction_private &r) {
+  if (r.num_bands == 0) return;
+  r.type = CEED_RESTRICTION_STANDARD;
+  r.num_bands = 0;
+  r.bands = nullptr;
+}
+
 }  // namespace
+
+namespace hg {
+
+void show_to_backend(CeedElemRestriction_private &r) {
+  const auto create = r.ops().create;
+  if (create != nullptr) check(create(&r));
+  r.is_known_to_backend = true;
+}
+
+}  // namespace hg
 
 const CeedElemRestriction CEED_ELEMRESTRICTION_NONE = &none.object;
 const CeedInt CEED_STRIDES_BACKEND[3] = {0, 0, 0};
@@ -55,6 +86,32 @@ CeedElemRestriction_private::~CeedElemRestriction_private() {
 void CeedElemRestriction_private::check_destroyable() const {
   hg::require(num_readers == 0, CEED_ERROR_ACCESS,
               "Cannot destroy CeedElemRestriction, a process has read access to the offset data");
+}
+
+int CeedElemRestrictionCreateUnsignedCopy(CeedElemRestriction rstr, CeedElemRestriction *rstr_unsigned) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto copy = copy_of(hg::deref_restriction(rstr));
+    if (copy->num_bands == 3) {
+      const CeedSize size = copy->table_size(3 * static_cast<CeedSize>(copy->elem_size));
+      auto bands = std::make_unique<CeedInt8[]>(static_cast<std::size_t>(size));
+      std::transform(copy->bands, copy->bands + size, bands.get(), [](int entry) { return CeedInt8(std::abs(entry)); });
+      copy->own_bands.keep(std::move(bands));
+      copy->bands = copy->own_bands.data();
+    } else {
+      drop_orientation(*copy);
+    }
+    hg::show_to_backend(*copy);
+    *rstr_unsigned = copy.release();
+  });
+}
+
+int CeedElemRestrictionCreateUnorientedCopy(CeedElemRestriction rstr, CeedElemRestriction *rstr_unoriented) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto copy = copy_of(hg::deref_restriction(rstr));
+    drop_orientation(*copy);
+    hg::show_to_backend(*copy);
+    *rstr_unoriented = copy.release();
+  });
 }
 
 int CeedElemRestrictionReferenceCopy(CeedElemRestriction rstr, CeedElemRestriction *rstr_copy) {

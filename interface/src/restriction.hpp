@@ -96,6 +96,9 @@ namespace hg {
 
 /// Handle -> restriction; NULL and CEED_ELEMRESTRICTION_NONE are errors.
 CeedElemRestriction_private &deref_restriction(CeedElemRestriction rstr, Where where = Where::current());
+/// The last step of making a restriction: tells the backend. From then on nothing fails, and the arrays that the user
+/// gave away may be adopted.
+void show_to_backend(CeedElemRestriction_private &r);
 /// Whether two restrictions map the same nodes in the same way: the same handle, or the same kind, sizes and tables.
 bool equal(const CeedElemRestriction_private &a, const CeedElemRestriction_private &b);
 /// Points of element `elem` of a restriction at points: their numbers.

@@ -129,13 +129,6 @@ const T *keep_table(const CeedElemRestriction_private &r, CeedCopyMode copy_mode
   return kept.data();
 }
 
-/// Shows the restriction to the backend. From then on nothing fails: the user's arrays may be adopted.
-void show_to_backend(CeedElemRestriction_private &r) {
-  const auto create = r.ops().create;
-  if (create != nullptr) hg::check(create(&r));
-  r.is_known_to_backend = true;
-}
-
 /// Checks starts and point numbers, sets the largest number of points of an element and returns the number of entries.
 CeedInt check_points(CeedElemRestriction_private &r, CeedInt num_points, const CeedInt *offsets,
                      hg::Where where = hg::Where::current()) {
@@ -264,7 +257,7 @@ void create(Ceed ceed, const WithOffsets &given, CeedElemRestriction *rstr, hg::
   if (given.type == CEED_RESTRICTION_ORIENTED) take_orients(r, given, where);
   if (given.type == CEED_RESTRICTION_CURL_ORIENTED) take_curl_orients(r, given, where);
   r.bands = r.own_bands.data();
-  show_to_backend(r);
+  hg::show_to_backend(r);
   if (given.copy_mode == CEED_OWN_POINTER) {
     r.own_offsets.adopt(given.offsets);
     r.orients.adopt(given.orients);
@@ -305,7 +298,7 @@ void create_strided(Ceed ceed, CeedInt num_elem, CeedInt elem_size, CeedInt bloc
                         r.strides[0], r.strides[1], r.strides[2], elem_size, num_comp, num_elem, last, l_size);
       },
       where);
-  show_to_backend(r);
+  hg::show_to_backend(r);
   *rstr = created.release();
 }
 
@@ -468,7 +461,7 @@ int CeedElemRestrictionCreateAtPoints(Ceed ceed, CeedInt num_elem, CeedInt num_p
       r.own_offsets.lend(offsets);
     }
     r.offsets = r.own_offsets.data();
-    show_to_backend(r);
+    hg::show_to_backend(r);
     if (copy_mode == CEED_OWN_POINTER) r.own_offsets.adopt(offsets);
     *rstr = created.release();
   });

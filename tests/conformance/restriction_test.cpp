@@ -224,6 +224,30 @@ TEST_P(RestrictionConformance, BlockedIsPlainInAnotherOrder) {
   });
 }
 
+TEST_P(RestrictionConformance, HasCopiesWithoutSignsAndWithoutOrientation) {
+  for_maps([&](const Map &original) {
+    struct Copy {
+      int (*create)(CeedElemRestriction, CeedElemRestriction *);
+      RestrictionCase c;
+    };
+    for (const Copy &copy : {Copy{CeedElemRestrictionCreateUnsignedCopy, without_signs(original.c)},
+                             Copy{CeedElemRestrictionCreateUnorientedCopy, without_orientation(original.c)}}) {
+      // The copy outlives the original, and is what the definition makes anew.
+      Map map(ceed, original.c);
+      Restriction rstr = std::move(map.rstr);
+      ok(copy.create(rstr, map.rstr.out()));
+      rstr.reset();
+      map.c = copy.c;
+      expect_gathers(map, random);
+      const Values e_values = random.reals(map.e_size()), l = random.reals(map.c.l_size);
+      expect_close(map.apply(CEED_TRANSPOSE, e_values, l), map.scattered(e_values, l), tolerance(4 * map.e_size()),
+                   "l + R^T e", 1);
+      const Map anew(ceed, copy.c);
+      EXPECT_EQ(map.apply(CEED_TRANSPOSE, e_values, l), anew.apply(CEED_TRANSPOSE, e_values, l));
+    }
+  });
+}
+
 TEST_P(RestrictionConformance, ServesOneBlock) {
   for_maps([&](const Map &map) {
     CeedInt num_block = 0;

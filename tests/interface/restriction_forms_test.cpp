@@ -253,6 +253,63 @@ TEST_F(RestrictionForms, RefuseBadBlocks) {
   ok(apply(1, CEED_NOTRANSPOSE, l, block));
 }
 
+TEST_F(RestrictionForms, UnsignedCopy) {
+  Restriction copy;
+  ok(oriented(offsets.data(), orients));
+  ok(CeedElemRestrictionCreateUnsignedCopy(rstr, copy.out()));
+  EXPECT_EQ(ask(copy, CeedElemRestrictionGetType), CEED_RESTRICTION_STANDARD);
+  EXPECT_EQ(orients_of(copy, 6), std::vector<int>());
+  ok(curl_oriented(offsets.data(), curl_orients.data()));
+  ok(CeedElemRestrictionCreateUnsignedCopy(rstr, copy.out()));
+  EXPECT_EQ(ask(copy, CeedElemRestrictionGetType), CEED_RESTRICTION_CURL_ORIENTED);
+  EXPECT_EQ(curl_orients_of(copy, 18), (std::vector<int>{9, 1, 0, 0, 1, 9, 9, 0, 1, 1, 0, 9, 9, 2, 1, 3, 1, 9}));
+  EXPECT_EQ(curl_orients_of(rstr, 18), std::vector<int>(curl_orients.begin(), curl_orients.end()));
+}
+
+TEST_F(RestrictionForms, UnorientedCopy) {
+  Restriction copy, second;
+  ok(curl_oriented(offsets.data(), curl_orients.data()));
+  ok(CeedElemRestrictionCreateUnorientedCopy(rstr, copy.out()));
+  // A copy of a copy reads the same tables, and outlives both.
+  ok(CeedElemRestrictionCreateUnsignedCopy(copy, second.out()));
+  rstr.reset();
+  copy.reset();
+  std::swap(rstr, second);
+  expect_sizes(CEED_RESTRICTION_STANDARD);
+  EXPECT_EQ(curl_orients_of(rstr, 18), std::vector<int>());
+  EXPECT_EQ(offsets_of(rstr, 6), std::vector<int>(offsets.begin(), offsets.end()));
+}
+
+TEST_F(RestrictionForms, CopiesKeepWhatIsNotOrientation) {
+  const CeedInt points[] = {3, 5, 6, 0, 1, 2};
+  const auto copies_look_alike = [&] {
+    Restriction unsigned_copy, unoriented_copy;
+    ok(CeedElemRestrictionCreateUnsignedCopy(rstr, unsigned_copy.out()));
+    ok(CeedElemRestrictionCreateUnorientedCopy(rstr, unoriented_copy.out()));
+    for (const auto *copy : {&unsigned_copy, &unoriented_copy}) {
+      EXPECT_NE(copy->get(), rstr.get());
+      EXPECT_EQ(view(*copy), view(rstr));
+      EXPECT_EQ(ask(*copy, CeedElemRestrictionGetType), ask(rstr, CeedElemRestrictionGetType));
+      EXPECT_EQ(ask(*copy, CeedElemRestrictionGetEVectorSize), ask(rstr, CeedElemRestrictionGetEVectorSize));
+      EXPECT_EQ(ask(*copy, CeedElemRestrictionGetNumBlocks), ask(rstr, CeedElemRestrictionGetNumBlocks));
+    }
+    // Tabs are each one's own.
+    ok(CeedElemRestrictionSetNumViewTabs(unsigned_copy, 1));
+    EXPECT_EQ(view(unsigned_copy), "  " + view(rstr));
+  };
+  ok(CeedElemRestrictionCreateBlockedStrided(ceed, 3, 2, 2, 2, 12, CEED_STRIDES_BACKEND, rstr.out()));
+  copies_look_alike();
+  ok(CeedElemRestrictionCreateAtPoints(ceed, 2, 3, 1, 3, CEED_MEM_HOST, CEED_COPY_VALUES, points, rstr.out()));
+  copies_look_alike();
+  CeedInt num_points = 0;
+  Restriction copy;
+  ok(CeedElemRestrictionCreateUnorientedCopy(rstr, copy.out()));
+  ok(CeedElemRestrictionGetNumPoints(copy, &num_points));
+  EXPECT_EQ(num_points, 3);
+  EXPECT_EQ(CeedElemRestrictionCreateUnsignedCopy(nullptr, copy.out()), CEED_ERROR_INCOMPLETE);
+  EXPECT_EQ(CeedElemRestrictionCreateUnorientedCopy(CEED_ELEMRESTRICTION_NONE, copy.out()), CEED_ERROR_INCOMPATIBLE);
+}
+
 TEST_F(RestrictionForms, AcceptARankWithoutElements) {
   ok(CeedElemRestrictionCreateOriented(ceed, 0, 2, 1, 1, 0, CEED_MEM_HOST, CEED_USE_POINTER, nullptr, nullptr,
                                        rstr.out()));

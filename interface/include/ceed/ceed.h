@@ -284,6 +284,11 @@ CEED_EXTERN int CeedElemRestrictionCreateBlockedStrided(Ceed ceed, CeedInt num_e
 CEED_EXTERN int CeedElemRestrictionCreateAtPoints(Ceed ceed, CeedInt num_elem, CeedInt num_points, CeedInt num_comp,
                                                   CeedSize l_size, CeedMemType mem_type, CeedCopyMode copy_mode,
                                                   const CeedInt *offsets, CeedElemRestriction *rstr);
+/// A restriction of the same nodes without the signs of the orientation: matrices of curl-oriented ones become their
+/// absolute values, oriented ones have no orientation left. Others are copied as they are. The tables are shared.
+CEED_EXTERN int CeedElemRestrictionCreateUnsignedCopy(CeedElemRestriction rstr, CeedElemRestriction *rstr_unsigned);
+/// A restriction of the same nodes without any orientation. The tables are shared.
+CEED_EXTERN int CeedElemRestrictionCreateUnorientedCopy(CeedElemRestriction rstr, CeedElemRestriction *rstr_unoriented);
 CEED_EXTERN int CeedElemRestrictionReferenceCopy(CeedElemRestriction rstr, CeedElemRestriction *rstr_copy);
 /// Vectors of the right lengths; either may be NULL.
 CEED_EXTERN int CeedElemRestrictionCreateVector(CeedElemRestriction rstr, CeedVector *lvec, CeedVector *evec);
