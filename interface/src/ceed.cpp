@@ -45,6 +45,7 @@ int restore_list(const char ***list) {
 }  // namespace hg
 
 Ceed_private::~Ceed_private() {
+  hg::destroy_work_vectors(*this);
   if (ops.ceed_destroy != nullptr) ops.ceed_destroy(this);
 }
 

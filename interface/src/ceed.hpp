@@ -4,10 +4,23 @@
 
 #include <ceed/plugin.h>
 
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "object.hpp"
+
+namespace hg {
+
+/// A vector kept for scratch work. The Ceed holds a reference; while the vector is idle it holds none to the Ceed, which
+/// would else live for ever.
+struct WorkVector {
+  CeedVector vec;
+  CeedSize length;
+  bool is_idle;
+};
+
+}  // namespace hg
 
 struct Ceed_private final : CeedObject_private {
   ~Ceed_private() override;
@@ -23,10 +36,14 @@ struct Ceed_private final : CeedObject_private {
   std::string error_message;  ///< kept by CeedErrorStore
   std::vector<std::string> jit_source_roots;
   std::vector<std::string> jit_defines;
+  std::mutex work_mutex;  ///< of work_vectors
+  std::vector<hg::WorkVector> work_vectors;
 };
 
 namespace hg {
 
+/// Destroys the work vectors of a Ceed that is being destroyed.
+void destroy_work_vectors(Ceed_private &ceed) noexcept;
 /// Checks that a memory type may be used with the Ceed's backend.
 void require_mem_type(const Ceed_private &ceed, CeedMemType mem_type, const char *what);
 

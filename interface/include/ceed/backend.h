@@ -45,6 +45,14 @@ CEED_EXTERN int CeedGetJitSourceRoots(Ceed ceed, CeedInt *num_source_roots, cons
 CEED_EXTERN int CeedRestoreJitSourceRoots(Ceed ceed, const char ***jit_source_roots);
 CEED_EXTERN int CeedGetJitDefines(Ceed ceed, CeedInt *num_defines, const char ***jit_defines);
 CEED_EXTERN int CeedRestoreJitDefines(Ceed ceed, const char ***jit_defines);
+/// A vector of `len` entries or more for scratch work, contents undefined: one that was given back, or a new one. The
+/// caller gives it back with Restore, which forgets the handle; no array of it and no other reference may be held then.
+CEED_EXTERN int CeedGetWorkVector(Ceed ceed, CeedSize len, CeedVector *vec);
+CEED_EXTERN int CeedRestoreWorkVector(Ceed ceed, CeedVector *vec);
+/// Destroys the work vectors that are shorter than min_len and not in use.
+CEED_EXTERN int CeedClearWorkVectors(Ceed ceed, CeedSize min_len);
+/// Memory of all work vectors in megabytes (10^6 bytes).
+CEED_EXTERN int CeedGetWorkVectorMemoryUsage(Ceed ceed, CeedScalar *usage_mb);
 /// @}
 
 /// @name Vectors
