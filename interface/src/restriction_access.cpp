@@ -73,16 +73,6 @@ CeedInt min_points(const CeedElemRestriction_private &r) {
   return least;
 }
 
-/// Calls f(i) for the entry i of the L-vector of each component of each node of each element.
-template <typename F>
-void for_each_entry(const CeedElemRestriction_private &r, F &&f) {
-  for (CeedInt e = 0; e < r.num_elem; e++) {
-    for (CeedInt n = 0; n < r.num_nodes(e); n++) {
-      for (CeedInt c = 0; c < r.num_comp; c++) f(r.place(e, n, c));
-    }
-  }
-}
-
 }  // namespace
 
 namespace hg {
@@ -237,20 +227,6 @@ int CeedElemRestrictionGetMinMaxPointsInElement(CeedElemRestriction rstr, CeedIn
     require_points(r);
     if (min_points != nullptr) *min_points = ::min_points(r);
     if (max_points != nullptr) *max_points = r.elem_size;
-  });
-}
-
-int CeedElemRestrictionGetMultiplicity(CeedElemRestriction rstr, CeedVector mult) {
-  return hg::guard(hg::ceed_of(rstr), [&] {
-    auto &r = hg::deref_restriction(rstr);
-    auto &vec = hg::deref_vector(mult, "CeedVector of multiplicities");
-    hg::require(vec.length >= r.l_size, CEED_ERROR_DIMENSION, [&] {
-      return hg::text("CeedVector of multiplicities has %td entries; expected at least the L-vector size %td",
-                      vec.length, r.l_size);
-    });
-    const hg::WriteArray array(mult, hg::WriteArray::write_only);
-    std::fill_n(array.data(), vec.length, 0.0);
-    for_each_entry(r, [&](CeedSize i) { array[i] += 1; });
   });
 }
 

@@ -1,4 +1,5 @@
 // Composite operators: the sum of their parts.
+#include <algorithm>
 #include <cstdlib>
 
 #include "backends.hpp"
@@ -185,6 +186,83 @@ TEST_P(CompositeTest, NoSubOperatorsIsZero) {
   EXPECT_EQ(num_entries, 0);
   std::free(rows);
   std::free(cols);
+}
+
+/// Whether entry i of the active input is read by a case.
+std::vector<bool> used_entries(const Case &c) {
+  std::vector<bool> is_used(static_cast<std::size_t>(c.input_size()));
+  for (const Field &field : c.inputs) {
+    for (CeedInt e = 0; field.is_active() && e < c.num_elem; e++) {
+      for (CeedInt q = 0; q < c.num_points[e]; q++) {
+        for (const auto &value : terms(c, field, e, q)) {
+          for (const Term &term : value) is_used[term.index] = true;
+        }
+      }
+    }
+  }
+  return is_used;
+}
+
+TEST_P(CompositeTest, CountsTheSubOperatorsThatReadAnEntry) {
+  for (int seed = 0; seed < 12; seed++) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(4500 + static_cast<std::uint64_t>(seed));
+    const std::vector<Case> cases = parts(random, false, 4);
+    std::vector<Instance> instances;
+    Operator all, nested;
+    ok(CeedOperatorCreateComposite(ceed, all.out()));
+    ok(CeedOperatorCreateComposite(ceed, nested.out()));
+    for (const Case &c : cases) instances.emplace_back(ceed, c);
+    // The last two together are the third part.
+    for (int i = 0; i < 4; i++) ok(CeedOperatorCompositeAddSub(i < 2 ? all : nested, instances[i].op));
+    ok(CeedOperatorCompositeAddSub(all, nested));
+    const CeedSize n = cases[0].input_size();
+    const Vector mult = make_vector(ceed, n + 1, 9.0);
+    const auto expect_parts = [&](std::vector<CeedInt> skipped) {
+      const auto is_in = [&](CeedInt part) { return std::count(skipped.begin(), skipped.end(), part) == 0; };
+      ok(CeedOperatorCompositeGetMultiplicity(all, static_cast<CeedInt>(skipped.size()), skipped.data(), mult));
+      std::vector<std::vector<bool>> used;
+      for (const Case &c : cases) used.push_back(used_entries(c));
+      Values want(static_cast<std::size_t>(n) + 1, 0.0);
+      for (CeedSize i = 0; i < n; i++) {
+        want[i] += is_in(0) && used[0][i] ? 1 : 0;
+        want[i] += is_in(1) && used[1][i] ? 1 : 0;
+        want[i] += is_in(2) && (used[2][i] || used[3][i]) ? 1 : 0;
+      }
+      EXPECT_EQ(values_of(mult), want);
+    };
+    expect_parts({});
+    expect_parts({1});
+    expect_parts({2, 0, 2});
+    expect_parts({0, 1, 2});
+    // Asking does not end the making.
+    ok(CeedOperatorCompositeAddSub(all, instances[0].op));
+  }
+}
+
+TEST_P(CompositeTest, RefusesBadMultiplicities) {
+  Random random(4600);
+  const Instance instance(ceed, random_case(random, {.is_square = true}));
+  Operator all, empty;
+  ok(CeedOperatorCreateComposite(ceed, all.out()));
+  ok(CeedOperatorCreateComposite(ceed, empty.out()));
+  ok(CeedOperatorCompositeAddSub(all, instance.op));
+  CeedSize n = 0;
+  ok(CeedOperatorGetActiveVectorLengths(all, &n, nullptr));
+  const Vector mult = make_vector(ceed, n, 1.0), shorter = make_vector(ceed, n - 1, 1.0);
+  CeedInt beyond = 1, below = -1;
+  const auto get = [&](CeedOperator op, CeedInt count, CeedInt *indices, CeedVector vec) {
+    return CeedOperatorCompositeGetMultiplicity(op, count, indices, vec);
+  };
+  expect_error(get(instance.op, 0, nullptr, mult), CEED_ERROR_MINOR, {"not composite"});
+  expect_error(get(all, 1, &beyond, mult), CEED_ERROR_DIMENSION, {"to skip is 1", "[0, 1)"});
+  expect_error(get(all, 1, &below, mult), CEED_ERROR_DIMENSION, {"to skip is -1"});
+  expect_error(get(all, 1, nullptr, mult), CEED_ERROR_MINOR, {"1 indices to skip"});
+  expect_error(get(all, -1, &beyond, mult), CEED_ERROR_MINOR, {"-1 indices to skip"});
+  expect_error(get(all, 0, nullptr, shorter), CEED_ERROR_DIMENSION,
+               {"has " + std::to_string(n - 1) + " entries", "size " + std::to_string(n)});
+  ok(get(empty, 0, nullptr, mult));
+  EXPECT_EQ(values_of(mult), Values(static_cast<std::size_t>(n), 0.0));
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, CompositeTest, testing::ValuesIn(usable_backends()), backend_name);

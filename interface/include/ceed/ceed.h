@@ -526,6 +526,10 @@ CEED_EXTERN int CeedOperatorCompositeGetSubByName(CeedOperator op, const char *o
 /// Whether sub-operators must run one after the other in the order in which they were added.
 CEED_EXTERN int CeedOperatorCompositeSetSequential(CeedOperator op, bool is_sequential);
 CEED_EXTERN int CeedOperatorCompositeIsSequential(CeedOperator op, bool *is_sequential);
+/// mult_i = number of sub-operators, those with the given indices left out, that read entry i of the active input in
+/// any of their elements. A sub-operator that is itself composite counts once. `mult`: as long as the active input.
+CEED_EXTERN int CeedOperatorCompositeGetMultiplicity(CeedOperator op, CeedInt num_skip_indices, CeedInt *skip_indices,
+                                                     CeedVector mult);
 /// Whether all fields are set and fit together; done by the first use.
 CEED_EXTERN int CeedOperatorCheckReady(CeedOperator op);
 /// L-vector sizes of the active input and output, -1 where there is none; either pointer may be NULL.
