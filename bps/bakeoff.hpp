@@ -47,6 +47,8 @@ class Bakeoff {
   /// Error of u against the manufactured solution, integrated with p + 3 Gauss points a direction.
   ErrorSums error(CeedVector u) const;
 
+  /// Lives as long as this object.
+  CeedOperator op() const { return operator_; }
   CeedSize num_dofs() const { return num_dofs_; }
   CeedInt num_elem() const { return num_elem_; }
   /// Quadrature points, or material points.

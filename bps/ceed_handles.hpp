@@ -44,6 +44,8 @@ class Handle {
     reset();
     return &object_;
   }
+  /// Where a function of the interface finds an object, or none, that it may replace.
+  Object *address() { return &object_; }
   operator Object() const { return object_; }
   explicit operator bool() const { return object_ != nullptr; }
 

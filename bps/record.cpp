@@ -52,6 +52,10 @@ void to_json(nlohmann::ordered_json &json, const Record &r) {
 void write_records(const std::filesystem::path &file, const std::vector<Record> &records) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const Record &record : records) json.push_back(record);
+  write_json(file, json);
+}
+
+void write_json(const std::filesystem::path &file, const nlohmann::ordered_json &json) {
   std::filesystem::path partial = file;
   partial += ".partial";
   std::ofstream stream(partial);

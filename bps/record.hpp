@@ -40,8 +40,11 @@ struct Record {
 /// Rates are of the best time.
 void to_json(nlohmann::ordered_json &json, const Record &record);
 
-/// Writes all records as one JSON array; an older file stays whole until the new one is. Throws Error.
+/// Writes all records as one JSON array, as write_json() does.
 void write_records(const std::filesystem::path &file, const std::vector<Record> &records);
+
+/// Writes any records; an older file stays whole until the new one is. Throws Error.
+void write_json(const std::filesystem::path &file, const nlohmann::ordered_json &json);
 
 /// Name of this machine's processor.
 std::string cpu_name();

@@ -9,6 +9,7 @@
 /// how B is tabulated.
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <deque>
 #include <functional>
@@ -103,6 +104,11 @@ class Functions {
   CeedInt num_rows() const { return static_cast<CeedInt>(rows_.size()); }
   /// Active value of component c in row k.
   CeedInt value(CeedInt k, CeedInt c) const { return rows_[k].first_value + c; }
+  /// Whether the rows of another are the same functions in the same order.
+  bool has_rows_of(const Functions &other) const {
+    return std::equal(rows_.begin(), rows_.end(), other.rows_.begin(), other.rows_.end(),
+                      [](const Row &a, const Row &b) { return a.functions == b.functions && a.d == b.d; });
+  }
   /// Row k at point q: the values of all functions.
   const CeedScalar *row(CeedInt k, CeedInt q) const {
     const FunctionValues &f = *rows_[k].functions;

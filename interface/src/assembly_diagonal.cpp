@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "assembly.hpp"
+#include "panel_product.hpp"
 
 namespace {
 
@@ -75,29 +76,51 @@ std::vector<ComponentPair> component_pairs(CeedInt num_comp, bool is_block) {
   return pairs;
 }
 
-/// Entry i*P + n: that of node n with itself for pair i. Flops: for each point and each pair of rows, P for the product
-/// of the functions and 2 P for each pair of components, which is the floor without sum factorisation.
-void element_diagonal(const hg::Coupling &coupling, CeedInt P, CeedInt Q, const hg::PointMatrices &D,
-                      const std::vector<ComponentPair> &pairs, std::vector<CeedScalar> &product,
-                      std::vector<CeedScalar> &entries) {
-  const hg::Functions &trial = coupling.trial, &test = coupling.test;
-  entries.assign(pairs.size() * P, 0.0);
-  product.resize(P);
-  for (CeedInt q = 0; q < Q; q++) {
-    for (CeedInt k = 0; k < trial.num_rows(); k++) {
-      for (CeedInt l = 0; l < test.num_rows(); l++) {
-        const CeedScalar *b = trial.row(k, q), *t = test.row(l, q);
-        for (CeedInt n = 0; n < P; n++) product[n] = t[n] * b[n];
-        CeedScalar *to = entries.data();
-        for (const ComponentPair &pair : pairs) {
-          const CeedScalar d = D(q, trial.value(k, pair.column), test.value(l, pair.row));
-          for (CeedInt n = 0; n < P; n++) to[n] += d * product[n];
-          to += P;
+/// Diagonals of element matrices.
+class ElementDiagonal {
+ public:
+  /// Entry i*P + n of the result is that of node n with itself for pair i: the products of two functions, times the sum
+  /// of all that couples them. Flops: for each point and each two rows P for the products, and 2 P for each pair of
+  /// components, which is the floor without sum factorisation: for a 3-vector Poisson problem with 27 nodes and 64
+  /// points 10 and 62 thousand.
+  const std::vector<CeedScalar> &compute(const hg::Coupling &coupling, CeedInt P, CeedInt Q, const hg::PointMatrices &D,
+                                         const std::vector<ComponentPair> &pairs) {
+    const hg::Functions &trial = coupling.trial, &test = coupling.test;
+    const auto num_pairs = static_cast<CeedInt>(pairs.size());
+    const CeedInt P_padded = hg::pad_to_tile(P), pairs_padded = hg::pad_to_tile(num_pairs),
+                  K = trial.num_rows(), L = test.num_rows();
+    // A product of the same two functions comes once.
+    const bool is_symmetric = trial.has_rows_of(test);
+    const CeedInt rows = is_symmetric ? K * (K + 1) / 2 : K * L;
+    entries_.assign(static_cast<std::size_t>(num_pairs) * P, 0.0);
+    const CeedInt block = std::max<CeedInt>(hg::panel_rows(std::max(P_padded, pairs_padded)) / rows, 1);
+    products_.assign(static_cast<std::size_t>(block) * rows * P_padded, 0.0);
+    factors_.assign(static_cast<std::size_t>(block) * rows * pairs_padded, 0.0);
+    for (CeedInt first = 0; first < Q; first += block) {
+      const CeedInt last = std::min(first + block, Q);
+      CeedScalar *product = products_.data(), *factor = factors_.data();
+      for (CeedInt q = first; q < last; q++) {
+        for (CeedInt k = 0; k < K; k++) {
+          const CeedScalar *b = trial.row(k, q);
+          for (CeedInt l = is_symmetric ? k : 0; l < L; l++, product += P_padded, factor += pairs_padded) {
+            const CeedScalar *t = test.row(l, q);
+            for (CeedInt n = 0; n < P; n++) product[n] = t[n] * b[n];
+            for (CeedInt i = 0; i < num_pairs; i++) {
+              factor[i] = D(q, trial.value(k, pairs[i].column), test.value(l, pairs[i].row));
+              if (is_symmetric && l != k) factor[i] += D(q, trial.value(l, pairs[i].column), test.value(k, pairs[i].row));
+            }
+          }
         }
       }
+      hg::add_panel_product((last - first) * rows, factors_.data(), pairs_padded, num_pairs, products_.data(), P_padded,
+                            P, entries_.data(), P);
     }
+    return entries_;
   }
-}
+
+ private:
+  std::vector<CeedScalar> products_, factors_, entries_;
+};
 
 /// Places in the L-vector of all components of an element's nodes, sorted.
 void sorted_places(const CeedElemRestriction_private &rstr, CeedInt e, std::vector<CeedSize> &places) {
@@ -141,9 +164,9 @@ class Adder {
     const CeedElemRestriction_private &rstr = coupling.trial.rstr();
     const CeedInt P = rstr.num_nodes(e);
     if (pairs_.empty()) pairs_ = component_pairs(rstr.num_comp, is_block_);
-    element_diagonal(coupling, P, Q, D, pairs_, product_, entries_);
+    const std::vector<CeedScalar> &entries = diagonal_.compute(coupling, P, Q, D, pairs_);
     for (std::size_t i = 0; i < pairs_.size(); i++) {
-      for (CeedInt n = 0; n < P; n++) array_[place(rstr, e, n, pairs_[i])] += entries_[i * P + n];
+      for (CeedInt n = 0; n < P; n++) array_[place(rstr, e, n, pairs_[i])] += entries[i * P + n];
     }
   }
 
@@ -174,10 +197,11 @@ class Adder {
   CeedScalar *array_;
   bool is_block_;
   BlockLayout layout_;
+  ElementDiagonal diagonal_;
   hg::ElementMatrix matrix_;
   std::vector<ComponentPair> pairs_;
   std::vector<CeedSize> trial_places_, test_places_;
-  std::vector<CeedScalar> product_, entries_;
+  std::vector<CeedScalar> entries_;
 };
 
 void add_entries(CeedOperator_private &op, CeedVector assembled, bool is_block, const BlockLayout &layout) {
