@@ -56,6 +56,12 @@ void require_strided(const CeedElemRestriction_private &r, hg::Where where = hg:
               "CeedElemRestriction has no strides; expected one made by CeedElemRestrictionCreateStrided()", where);
 }
 
+/// For what only the backend's create() may do.
+void require_new(const CeedElemRestriction_private &r, hg::Where where = hg::Where::current()) {
+  hg::require(!r.is_known_to_backend, CEED_ERROR_ACCESS,
+              "CeedElemRestriction is made already; its layouts are set by the backend while it is made", where);
+}
+
 void require_elem(const CeedElemRestriction_private &r, CeedInt elem, hg::Where where = hg::Where::current()) {
   hg::require(
       elem >= 0 && elem < r.num_elem, CEED_ERROR_DIMENSION,
@@ -316,7 +322,42 @@ int CeedElemRestrictionGetAtPointsElementOffset(CeedElemRestriction rstr, CeedIn
     auto &r = hg::deref_restriction(rstr);
     require_points(r);
     require_elem(r, elem);
-    *elem_offset = (static_cast<CeedSize>(r.offsets[elem]) - r.offsets[0]) * r.num_comp;
+    *elem_offset = r.e_layout[2] > 0 ? static_cast<CeedSize>(elem) * r.e_layout[2]
+                                     : (static_cast<CeedSize>(r.offsets[elem]) - r.offsets[0]) * r.num_comp;
+  });
+}
+
+int CeedElemRestrictionSetELayout(CeedElemRestriction rstr, CeedInt layout[3]) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_new(r);
+    std::copy_n(layout, 3, r.e_layout);
+  });
+}
+
+int CeedElemRestrictionSetLLayout(CeedElemRestriction rstr, CeedInt layout[3]) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_strided(r);
+    require_new(r);
+    hg::require(r.has_backend_strides, CEED_ERROR_MINOR,
+                "CeedElemRestriction has the strides that the user gave; expected CEED_STRIDES_BACKEND");
+    std::copy_n(layout, 3, r.strides);
+  });
+}
+
+int CeedElemRestrictionSetAtPointsEVectorSize(CeedElemRestriction rstr, CeedSize e_size) {
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_points(r);
+    require_new(r);
+    hg::require(e_size >= r.e_size, CEED_ERROR_DIMENSION, [&] {
+      return hg::text(
+          "CeedElemRestriction: size of the E-vector is %td; expected at least %td for the points of all "
+          "elements",
+          e_size, r.e_size);
+    });
+    r.e_size = e_size;
   });
 }
 

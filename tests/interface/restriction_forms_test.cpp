@@ -253,6 +253,18 @@ TEST_F(RestrictionForms, RefuseBadBlocks) {
   ok(apply(1, CEED_NOTRANSPOSE, l, block));
 }
 
+TEST_F(RestrictionForms, KeepTheLayoutsTheyWereMadeWith) {
+  CeedInt layout[3] = {3, 6, 1};
+  ok(CeedElemRestrictionCreate(ceed, 3, 2, 2, 4, 8, CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(), rstr.out()));
+  expect_error(CeedElemRestrictionSetELayout(rstr, layout), CEED_ERROR_ACCESS, {"made already"});
+  expect_error(CeedElemRestrictionSetLLayout(rstr, layout), CEED_ERROR_MINOR, {"no strides"});
+  expect_error(CeedElemRestrictionSetAtPointsEVectorSize(rstr, 99), CEED_ERROR_INCOMPATIBLE, {"no points"});
+  ok(CeedElemRestrictionGetELayout(rstr, layout));
+  EXPECT_EQ((std::vector<int>(layout, layout + 3)), (std::vector<int>{1, 2, 4}));
+  ok(CeedElemRestrictionCreateStrided(ceed, 3, 2, 2, 12, CEED_STRIDES_BACKEND, rstr.out()));
+  expect_error(CeedElemRestrictionSetLLayout(rstr, layout), CEED_ERROR_ACCESS, {"made already"});
+}
+
 TEST_F(RestrictionForms, UnsignedCopy) {
   Restriction copy;
   ok(oriented(offsets.data(), orients));

@@ -99,13 +99,19 @@ CEED_EXTERN int CeedElemRestrictionRestoreOrientations(CeedElemRestriction rstr,
 CEED_EXTERN int CeedElemRestrictionGetCurlOrientations(CeedElemRestriction rstr, CeedMemType mem_type,
                                                        const CeedInt8 **curl_orients);
 CEED_EXTERN int CeedElemRestrictionRestoreCurlOrientations(CeedElemRestriction rstr, const CeedInt8 **curl_orients);
-/// Layout (node, component, element) of the L-vector (strided ones) and of the E-vector; {1, 0, 0} for an E-vector at
-/// points, where the rest varies: see CeedElemRestrictionGetAtPointsElementOffset().
+/// Layout (node, component, element) of the L-vector (strided ones) and of the E-vector; {1, 0, 0} for a ragged E-vector
+/// at points, where the rest varies: see CeedElemRestrictionGetAtPointsElementOffset().
 CEED_EXTERN int CeedElemRestrictionGetLLayout(CeedElemRestriction rstr, CeedInt layout[3]);
 CEED_EXTERN int CeedElemRestrictionGetELayout(CeedElemRestriction rstr, CeedInt layout[3]);
 /// Where the values of element `elem` start in an E-vector at points.
 CEED_EXTERN int CeedElemRestrictionGetAtPointsElementOffset(CeedElemRestriction rstr, CeedInt elem,
                                                             CeedSize *elem_offset);
+/// For a backend that lays out vectors otherwise, while it is told of a new restriction (`create` in ceed/plugin.h), and
+/// not later: the E-vector; the L-vector where the user left its strides to the backend; the length of an E-vector at
+/// points, whose layout may be one for points that are alike in number.
+CEED_EXTERN int CeedElemRestrictionSetELayout(CeedElemRestriction rstr, CeedInt layout[3]);
+CEED_EXTERN int CeedElemRestrictionSetLLayout(CeedElemRestriction rstr, CeedInt layout[3]);
+CEED_EXTERN int CeedElemRestrictionSetAtPointsEVectorSize(CeedElemRestriction rstr, CeedSize e_size);
 CEED_EXTERN int CeedElemRestrictionGetData(CeedElemRestriction rstr, void *data);
 CEED_EXTERN int CeedElemRestrictionSetData(CeedElemRestriction rstr, void *data);
 CEED_EXTERN int CeedElemRestrictionReference(CeedElemRestriction rstr);

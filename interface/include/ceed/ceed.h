@@ -296,8 +296,8 @@ CEED_EXTERN int CeedElemRestrictionCreateVector(CeedElemRestriction rstr, CeedVe
 /// what is beyond stays.
 CEED_EXTERN int CeedElemRestrictionApply(CeedElemRestriction rstr, CeedTransposeMode t_mode, CeedVector u,
                                          CeedVector ru, CeedRequest *request);
-/// The same for one block of elements, [0, number of blocks): the E-vector holds that block and may be longer. Without
-/// blocks, and at points, each element is a block.
+/// The same for one block of elements, [0, number of blocks): the E-vector holds that block, (element, node, component),
+/// element fastest, and may be longer. Without blocks, and at points, each element is a block.
 CEED_EXTERN int CeedElemRestrictionApplyBlock(CeedElemRestriction rstr, CeedInt block, CeedTransposeMode t_mode,
                                               CeedVector u, CeedVector ru, CeedRequest *request);
 /// The same for the points of one element: its vector holds component c of its point p at [c*num_points + p], with the

@@ -65,7 +65,7 @@ typedef struct {
   CeedInt block_size;
   CeedInt comp_stride;    ///< 0 for strided ones
   CeedInt strides[3];     ///< (node, component, element) of strided ones, also where the backend chose them
-  CeedInt e_layout[3];    ///< (node, component, element) of E-vectors; {1, 0, 0} where they are ragged
+  CeedInt e_layout[3];    ///< (node, component, element) of whole E-vectors; {1, 0, 0} where they are ragged
   CeedSize l_size, e_size;
   const CeedInt *offsets;
   CeedInt num_bands;      ///< of T_e. 0: it is the identity; 1: it is diagonal, of signs; 3: it is tridiagonal
@@ -77,9 +77,9 @@ typedef struct {
 typedef struct {
   int (*create)(CeedElemRestriction rstr);   ///< optional; may set the layout of E-vectors, and L-vectors if strided
   int (*destroy)(CeedElemRestriction rstr);  ///< optional
-  /// The blocks [first_block, first_block + num_block), of which the E-vector holds nothing else. At points, as without
-  /// blocks, each element is a block; the vector of a single one holds component c of its point p at [c*num_points + p].
-  /// CEED_NOTRANSPOSE writes ru, CEED_TRANSPOSE adds to it; what of ru does not belong to the blocks stays.
+  /// The blocks [first_block, first_block + num_block): all of them, or a single one. Without blocks, and at points, each
+  /// element is a block. The E-vector of a single block holds nothing else, laid out as above whatever the layout of the
+  /// whole. CEED_NOTRANSPOSE writes ru, CEED_TRANSPOSE adds to it; what of ru does not belong to the blocks stays.
   int (*apply)(CeedElemRestriction rstr, CeedInt first_block, CeedInt num_block, CeedTransposeMode t_mode, CeedVector u,
                CeedVector ru);
 } CeedElemRestrictionOps;
