@@ -565,6 +565,32 @@ CEED_EXTERN int CeedOperatorLinearAssembleSymbolic(CeedOperator op, CeedSize *nu
 CEED_EXTERN int CeedOperatorLinearAssembleGetNumEntries(CeedOperator op, CeedSize *num_entries);
 /// Values in the order of CeedOperatorLinearAssembleSymbolic().
 CEED_EXTERN int CeedOperatorLinearAssemble(CeedOperator op, CeedVector values);
+/// A level of p-multigrid: `op_coarse` is the operator with the space of all active fields that have a basis replaced by
+/// the coarse one (other fields, the QFunction and the points are shared), `op_prolong` takes a coarse L-vector to a fine
+/// one, and `op_restrict` is its transpose. Fine and coarse space have the same elements, and bases at the same
+/// quadrature points; at points, the coarse basis is evaluated where the points of `op_fine` are now.
+/// Prolongation interpolates in each element and scales by 1/(m p_mult_fine), entry by entry, where m is the number of
+/// nodes of elements that are that entry: with p_mult_fine = 1, or on many processes the number of those that share the
+/// entry, a fine entry becomes the mean of what its elements propose. An entry of p_mult_fine that is 0 stays 0.
+/// In a composite operator all sub-operators have the same active restriction and basis. For sub-operators on different
+/// elements, make a level of each with p_mult_fine of CeedOperatorCompositeGetMultiplicity(), and compose those.
+/// Each of the three handles may be NULL, and is then not made; p_mult_fine may be NULL without prolongation and
+/// restriction. The caller destroys the operators.
+/// The interpolation from coarse to fine nodes is here the projection of CeedBasisCreateProjection().
+CEED_EXTERN int CeedOperatorMultigridLevelCreate(CeedOperator op_fine, CeedVector p_mult_fine,
+                                                 CeedElemRestriction rstr_coarse, CeedBasis basis_coarse,
+                                                 CeedOperator *op_coarse, CeedOperator *op_prolong,
+                                                 CeedOperator *op_restrict);
+/// The same with an interpolation in one dimension, fine P_1d by coarse P_1d, row-major; both bases are tensor products.
+CEED_EXTERN int CeedOperatorMultigridLevelCreateTensorH1(CeedOperator op_fine, CeedVector p_mult_fine,
+                                                         CeedElemRestriction rstr_coarse, CeedBasis basis_coarse,
+                                                         const CeedScalar *interp_c_to_f, CeedOperator *op_coarse,
+                                                         CeedOperator *op_prolong, CeedOperator *op_restrict);
+/// The same with an interpolation of all nodes, fine by coarse, row-major.
+CEED_EXTERN int CeedOperatorMultigridLevelCreateH1(CeedOperator op_fine, CeedVector p_mult_fine,
+                                                   CeedElemRestriction rstr_coarse, CeedBasis basis_coarse,
+                                                   const CeedScalar *interp_c_to_f, CeedOperator *op_coarse,
+                                                   CeedOperator *op_prolong, CeedOperator *op_restrict);
 CEED_EXTERN int CeedOperatorSetName(CeedOperator op, const char *name);
 CEED_EXTERN int CeedOperatorGetName(CeedOperator op, const char **name);
 CEED_EXTERN int CeedOperatorSetNumViewTabs(CeedOperator op, CeedInt num_tabs);

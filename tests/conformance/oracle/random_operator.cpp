@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "conformance/qfunctions/blend.h"
-
 namespace hg::test {
 
 Layout random_layout(Random &random, const OperatorWishes &wishes) {
@@ -34,7 +32,7 @@ RandomOperator::RandomOperator(Ceed ceed, Random &random, const OperatorWishes &
   for (CeedInt i = 0; i < num_spaces; i++) add_active(inputs_, layout_.in);
   if (layout_.in == layout_.out) {
     // Some of the same spaces, in other modes.
-    for (const Field &field : std::vector<Field>(inputs_)) {
+    for (const BlendField &field : std::vector<BlendField>(inputs_)) {
       if (field.vec != CEED_VECTOR_ACTIVE || random.chance(0.3)) continue;
       outputs_.push_back(field);
       description_ += ", out: the same";
@@ -133,7 +131,7 @@ CeedElemRestriction RandomOperator::make_point_restriction(CeedInt num_comp, Cee
   return rstr;
 }
 
-void RandomOperator::add_active(std::vector<Field> &fields, CeedSize l_size) {
+void RandomOperator::add_active(std::vector<BlendField> &fields, CeedSize l_size) {
   const CeedInt num_comp = layout_.num_comp > 0 ? layout_.num_comp : random_.integer(1, std::min(wishes_.max_comp, 3)),
                 comp_stride = layout_.num_comp > 0   ? layout_.comp_stride
                               : random_.chance(0.5) ? 1
@@ -179,65 +177,20 @@ void RandomOperator::add_passive() {
   inputs_.push_back({CEED_EVAL_NONE, 1, rstr, CEED_BASIS_NONE, vectors_.back()});
 }
 
-void RandomOperator::place_points() {
-  const CeedInt dim = wishes_.dim;
-  const CeedElemRestriction rstr = make_point_restriction(dim, static_cast<CeedSize>(total_points_) * dim);
-  vectors_.push_back(make_vector(ceed_, random_.reals(static_cast<CeedSize>(total_points_) * dim)));
-  ok(CeedOperatorAtPointsSetPoints(op_, rstr, vectors_.back()));
-}
-
 void RandomOperator::compose() {
   // The QFunction sees fields in a random order.
-  for (std::vector<Field> *fields : {&inputs_, &outputs_}) {
+  for (std::vector<BlendField> *fields : {&inputs_, &outputs_}) {
     for (std::size_t i = 1; i < fields->size(); i++) {
       std::swap((*fields)[i], (*fields)[random_.integer(0, static_cast<CeedInt>(i))]);
     }
   }
-  blend_.num_in = static_cast<CeedInt>(inputs_.size());
-  blend_.num_out = static_cast<CeedInt>(outputs_.size());
-  blend_.seed = random_.integer(0, 1000);
-  ok(CeedQFunctionCreateInterior(ceed_, 1, blend, blend_loc, qf_.out()));
-  for (CeedInt i = 0; i < blend_.num_in; i++) {
-    blend_.in_size[i] = inputs_[i].size;
-    blend_.in_is_active[i] = inputs_[i].vec == CEED_VECTOR_ACTIVE;
-    ok(CeedQFunctionAddInput(qf_, ("in" + std::to_string(i)).c_str(), inputs_[i].size, inputs_[i].mode));
-  }
-  for (CeedInt i = 0; i < blend_.num_out; i++) {
-    blend_.out_size[i] = outputs_[i].size;
-    ok(CeedQFunctionAddOutput(qf_, ("out" + std::to_string(i)).c_str(), outputs_[i].size, outputs_[i].mode));
-  }
-  ok(CeedQFunctionContextCreate(ceed_, context_.out()));
-  ok(CeedQFunctionContextSetData(context_, CEED_MEM_HOST, CEED_COPY_VALUES, sizeof blend_, &blend_));
-  ok(CeedQFunctionSetContext(qf_, context_));
-  ok(CeedQFunctionSetContextWritable(qf_, false));
+  BlendPoints points;
   if (wishes_.at_points) {
-    ok(CeedOperatorCreateAtPoints(ceed_, qf_, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op_.out()));
-  } else {
-    ok(CeedOperatorCreate(ceed_, qf_, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op_.out()));
+    const CeedSize size = static_cast<CeedSize>(total_points_) * wishes_.dim;
+    vectors_.push_back(make_vector(ceed_, random_.reals(size)));
+    points = {make_point_restriction(wishes_.dim, size), vectors_.back()};
   }
-  for (const auto &[fields, prefix] : {std::pair{&inputs_, "in"}, std::pair{&outputs_, "out"}}) {
-    for (std::size_t i = 0; i < fields->size(); i++) {
-      const Field &field = (*fields)[i];
-      ok(CeedOperatorSetField(op_, (prefix + std::to_string(i)).c_str(), field.rstr, field.basis, field.vec));
-    }
-  }
-  if (wishes_.at_points) place_points();
-}
-
-Values dense_by_unit_vectors(Ceed ceed, CeedOperator op) {
-  CeedSize in = 0, out = 0;
-  ok(CeedOperatorGetActiveVectorLengths(op, &in, &out));
-  Values dense(static_cast<std::size_t>(in * out)), unit(static_cast<std::size_t>(in), 0);
-  const Vector u = make_vector(ceed, in, 0), v = make_vector(ceed, out, 0);
-  for (CeedSize j = 0; j < in; j++) {
-    unit[j] = 1;
-    set_values(u, unit);
-    unit[j] = 0;
-    ok(CeedOperatorApply(op, u, v, CEED_REQUEST_IMMEDIATE));
-    const Values column = values_of(v);
-    for (CeedSize i = 0; i < out; i++) dense[i * in + j] = column[i];
-  }
-  return dense;
+  op_ = make_blend(ceed_, random_.integer(0, 1000), inputs_, outputs_, points);
 }
 
 }  // namespace hg::test

@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "conformance/qfunctions/blend_context.h"
-#include "support/errors.hpp"
-#include "support/values.hpp"
+#include "blend_operator.hpp"
 
 namespace hg::test {
 
@@ -40,19 +38,11 @@ class RandomOperator {
   const std::string &description() const { return description_; }
 
  private:
-  struct Field {
-    CeedEvalMode mode;
-    CeedInt size;
-    CeedElemRestriction rstr;
-    CeedBasis basis;
-    CeedVector vec;
-  };
   CeedBasis make_basis(CeedInt num_comp, CeedInt &num_nodes, CeedEvalMode &derivative);
   CeedElemRestriction make_restriction(CeedInt elem_size, CeedInt num_comp, CeedInt comp_stride, CeedSize l_size);
   CeedElemRestriction make_point_restriction(CeedInt num_comp, CeedSize l_size);
-  void add_active(std::vector<Field> &fields, CeedSize l_size);
+  void add_active(std::vector<BlendField> &fields, CeedSize l_size);
   void add_passive();
-  void place_points();
   void compose();
 
   Ceed ceed_;
@@ -66,15 +56,9 @@ class RandomOperator {
   std::deque<Restriction> restrictions_;
   std::deque<Basis> bases_;
   std::deque<Vector> vectors_;
-  std::vector<Field> inputs_, outputs_;
-  BlendContext blend_{};
-  Context context_;
-  QFunction qf_;
+  std::vector<BlendField> inputs_, outputs_;
   Operator op_;
   std::string description_;
 };
-
-/// The matrix of an operator, row-major, by its action on unit vectors.
-Values dense_by_unit_vectors(Ceed ceed, CeedOperator op);
 
 }  // namespace hg::test
