@@ -1,8 +1,8 @@
 """Runs every command line that README.md and the manual show.
 
 Commands stand in blocks fenced as ```sh (each line is one) or ```console (lines that start with "$ "). A block is one
-shell session, started in a copy of the repository made of links in which build/release is the given build folder; what
-it writes stays in the copy. A command that another test runs is listed in docs/commands_elsewhere.txt, by its exact
+shell session. The blocks of a page run one after another in a copy of the repository made of links, in which
+build/release is the given build folder; what they write stays in the copy. A command that another test runs is listed in docs/commands_elsewhere.txt, by its exact
 text, with that place: it is not run here, and a line of the list that no page shows any more is an error.
 """
 
@@ -101,6 +101,7 @@ def sh_quoted(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", required=True, type=pathlib.Path, help="build folder, with bin/ and lib/")
+    parser.add_argument("--page", action="append", help="this page only, such as docs/theory/impm.md; repeat for several")
     parser.add_argument("--timeout", type=float, default=600, help="seconds for one block")
     args = parser.parse_args()
     elsewhere = commands_elsewhere()
@@ -109,24 +110,28 @@ def main():
     os.environ["PATH"] = "/usr/bin:" + os.environ["PATH"]  # the python3 for which Debian packages matplotlib
     for page in pages():
         name = str(page.relative_to(SOURCE))
-        for session in sessions(page):
-            here = []
-            for number, command in session:
-                if command in elsewhere:
-                    unseen.discard(command)
-                    skipped += 1
-                    print(f"{name}:{number}: {command}\n  runs in {elsewhere[command]}")
-                else:
-                    here.append((number, command))
-            if not here:
-                continue
-            with tempfile.TemporaryDirectory(prefix="honeyguide-docs-") as folder:
-                scratch_copy(pathlib.Path(folder), args.build.resolve())
+        if args.page and name not in args.page:
+            continue
+        with tempfile.TemporaryDirectory(prefix="honeyguide-docs-") as folder:
+            scratch_copy(pathlib.Path(folder), args.build.resolve())
+            for session in sessions(page):
+                here = []
+                for number, command in session:
+                    if command in elsewhere:
+                        unseen.discard(command)
+                        skipped += 1
+                        print(f"{name}:{number}: {command}\n  runs in {elsewhere[command]}")
+                    else:
+                        here.append((number, command))
+                if not here:
+                    continue
                 sys.stdout.flush()
                 if run(here, name, folder, args.timeout):
                     passed += len(here)
                 else:
                     failed += len(here)
+    if args.page:
+        unseen = set()  # the other pages may show them
     for command in sorted(unseen):
         print(f"FAILED: {LIST.relative_to(SOURCE)} lists '{command}', which no page shows")
     print(f"\n{passed} commands ran, {skipped} run elsewhere, {failed} in blocks that failed, {len(unseen)} listed in vain")
