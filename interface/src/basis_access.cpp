@@ -3,23 +3,26 @@
 #include <cmath>
 
 #include "basis.hpp"
+#include "view.hpp"
 
 namespace {
 
 constexpr CeedScalar rounding = 1e-14;
 
 /// A table as View prints it: one row stays on the line of its name.
-void print_table(FILE *stream, const std::string &indent, const char *name, CeedSize rows, CeedInt columns,
+void print_table(const hg::Lines &line, const char *name, CeedSize rows, CeedInt columns,
                  const std::vector<CeedScalar> &values) {
-  std::fprintf(stream, rows > 1 ? "%s  %s\n" : "%s  %-10s", indent.c_str(), name);
-  for (CeedSize i = 0; i < rows; i++) {
-    if (rows > 1) std::fprintf(stream, "%s    [%" CeedSize_FMT "]", indent.c_str(), i);
+  const auto row = [&](CeedSize i) {
+    std::string numbers;
     for (CeedInt j = 0; j < columns; j++) {
       const CeedScalar x = values[i * columns + j];
-      std::fprintf(stream, "\t% 12.8f", std::abs(x) > rounding ? x : 0.0);
+      numbers += hg::text("\t% 12.8f", std::abs(x) > rounding ? x : 0.0);
     }
-    std::fprintf(stream, "\n");
-  }
+    return numbers;
+  };
+  if (rows == 1) return line(1, "%-10s%s", name, row(0).c_str());
+  line(1, "%s", name);
+  for (CeedSize i = 0; i < rows; i++) line(2, "[%" CeedSize_FMT "]%s", i, row(i).c_str());
 }
 
 /// Kronecker product of 1D matrices, x fastest in rows and columns; direction g (none if negative) takes `grad_1d`.
@@ -148,33 +151,28 @@ const std::vector<CeedScalar> &matrix(CeedBasis_private &basis, CeedEvalMode mod
 }  // namespace hg
 
 void CeedBasis_private::view(FILE *stream) const {
-  const std::string indent = hg::tabs(*this);
-  const char *in = indent.c_str();
-  if (is_sentinel) {
-    std::fprintf(stream, "%sCeedBasis NONE\n", in);
-    return;
-  }
-  std::fprintf(stream, "%sCeedBasis in a %s on a %s element\n", in, CeedFESpaces[fe_space],
-               CeedElemTopologies[topology]);
-  std::fprintf(stream, "%s  P: %" CeedInt_FMT "\n%s  Q: %" CeedInt_FMT "\n", in, is_tensor ? P_1d : P, in,
-               is_tensor ? Q_1d : Q);
-  std::fprintf(stream, "%s  dimension: %" CeedInt_FMT "\n%s  field components: %" CeedInt_FMT "\n", in, dim, in,
-               num_comp);
+  const hg::Lines line(stream, num_view_tabs);
+  if (is_sentinel) return line(0, "CeedBasis NONE");
+  line(0, "CeedBasis in a %s on a %s element", CeedFESpaces[fe_space], CeedElemTopologies[topology]);
+  line(1, "P: %" CeedInt_FMT, is_tensor ? P_1d : P);
+  line(1, "Q: %" CeedInt_FMT, is_tensor ? Q_1d : Q);
+  line(1, "dimension: %" CeedInt_FMT, dim);
+  line(1, "field components: %" CeedInt_FMT, num_comp);
   if (is_tensor) {
-    print_table(stream, indent, "qref1d:", 1, Q_1d, q_ref);
-    print_table(stream, indent, "qweight1d:", 1, Q_1d, q_weight);
-    print_table(stream, indent, "interp1d:", Q_1d, P_1d, interp_1d);
-    print_table(stream, indent, "grad1d:", Q_1d, P_1d, grad_1d);
+    print_table(line, "qref1d:", 1, Q_1d, q_ref);
+    print_table(line, "qweight1d:", 1, Q_1d, q_weight);
+    print_table(line, "interp1d:", Q_1d, P_1d, interp_1d);
+    print_table(line, "grad1d:", Q_1d, P_1d, grad_1d);
     return;
   }
   const char *derivative_name = fe_space == CEED_FE_SPACE_H1     ? "grad:"
                                 : fe_space == CEED_FE_SPACE_HDIV ? "div:"
                                                                  : "curl:";
-  print_table(stream, indent, "qref:", 1, dim * Q, q_ref);
-  print_table(stream, indent, "qweight:", 1, Q, q_weight);
+  print_table(line, "qref:", 1, dim * Q, q_ref);
+  print_table(line, "qweight:", 1, Q, q_weight);
   const auto rows = [&](const std::vector<CeedScalar> &matrix) { return static_cast<CeedSize>(matrix.size()) / P; };
-  print_table(stream, indent, "interp:", rows(interp), P, interp);
-  if (!derivative.empty()) print_table(stream, indent, derivative_name, rows(derivative), P, derivative);
+  print_table(line, "interp:", rows(interp), P, interp);
+  if (!derivative.empty()) print_table(line, derivative_name, rows(derivative), P, derivative);
 }
 
 int CeedBasisView(CeedBasis basis, FILE *stream) {

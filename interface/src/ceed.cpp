@@ -5,6 +5,7 @@
 
 #include "registry.hpp"
 #include "version.hpp"
+#include "view.hpp"
 
 namespace hg {
 
@@ -50,9 +51,10 @@ Ceed_private::~Ceed_private() {
 }
 
 void Ceed_private::view(FILE *stream) const {
-  const std::string indent = hg::tabs(*this);
-  std::fprintf(stream, "%sCeed\n%s  Ceed Resource: %s\n%s  Preferred MemType: %s\n", indent.c_str(), indent.c_str(),
-               resource.c_str(), indent.c_str(), CeedMemTypes[ops.preferred_mem_type]);
+  const hg::Lines line(stream, num_view_tabs);
+  line(0, "Ceed");
+  line(1, "Ceed Resource: %s", resource.c_str());
+  line(1, "Preferred MemType: %s", CeedMemTypes[ops.preferred_mem_type]);
 }
 
 int CeedInit(const char *resource, Ceed *ceed) {

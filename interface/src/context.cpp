@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "view.hpp"
+
 namespace {
 
 CeedQFunctionContext_private &deref_context(CeedQFunctionContext ctx, hg::Where where = hg::Where::current()) {
@@ -172,11 +174,11 @@ void CeedQFunctionContext_private::check_destroyable() const {
 }
 
 void CeedQFunctionContext_private::view(FILE *stream) const {
-  const std::string indent = hg::tabs(*this);
-  std::fprintf(stream, "%sCeedQFunctionContext\n%s  Context Data Size: %zu\n", indent.c_str(), indent.c_str(), size);
+  const hg::Lines line(stream, num_view_tabs);
+  line(0, "CeedQFunctionContext");
+  line(1, "Context Data Size: %zu", size);
   for (const auto &label : labels) {
-    std::fprintf(stream, "%s  Labeled %s field: %s\n", indent.c_str(), CeedContextFieldTypes[label.type],
-                 label.name.c_str());
+    line(1, "Labeled %s field: %s", CeedContextFieldTypes[label.type], label.name.c_str());
   }
 }
 

@@ -17,10 +17,6 @@ void dereference(CeedObject_private *object) {
   delete object;
 }
 
-std::string tabs(const CeedObject_private &object) {
-  return std::string(2 * static_cast<std::size_t>(object.num_view_tabs), ' ');
-}
-
 }  // namespace hg
 
 int CeedObjectView(CeedObject obj, FILE *stream) {

@@ -101,7 +101,4 @@ void destroy(T **object) {
 /// The Ceed of an object for guard(), or NULL.
 inline Ceed ceed_of(const CeedObject_private *object) noexcept { return object != nullptr ? object->owner() : nullptr; }
 
-/// Indentation of the View functions: num_view_tabs steps of two spaces.
-std::string tabs(const CeedObject_private &object);
-
 }  // namespace hg

@@ -4,6 +4,7 @@
 
 #include "restriction.hpp"
 #include "vector.hpp"
+#include "view.hpp"
 
 namespace {
 
@@ -135,19 +136,16 @@ CeedSize CeedElemRestriction_private::place(CeedInt e, CeedInt n, CeedInt c) con
 }
 
 void CeedElemRestriction_private::view(FILE *stream) const {
-  std::fprintf(stream, "%s%sCeedElemRestriction%s from (%td, %" CeedInt_FMT ") to %" CeedInt_FMT " elements with ",
-               hg::tabs(*this).c_str(), block_size > 1 ? "Blocked " : "", is_points() ? " at points" : "", l_size,
-               num_comp, num_elem);
-  if (is_points()) {
-    std::fprintf(stream, "a maximum of %" CeedInt_FMT " points on an element\n", elem_size);
-  } else if (is_strided()) {
-    const CeedInt *shown = has_backend_strides ? CEED_STRIDES_BACKEND : strides;
-    std::fprintf(stream,
-                 "%" CeedInt_FMT " nodes each and strides [%" CeedInt_FMT ", %" CeedInt_FMT ", %" CeedInt_FMT "]\n",
-                 elem_size, shown[0], shown[1], shown[2]);
-  } else {
-    std::fprintf(stream, "%" CeedInt_FMT " nodes each and component stride %" CeedInt_FMT "\n", elem_size, comp_stride);
-  }
+  const CeedInt *shown = has_backend_strides ? CEED_STRIDES_BACKEND : strides;
+  const std::string nodes =
+      is_points() ? hg::text("a maximum of %" CeedInt_FMT " points on an element", elem_size)
+      : is_strided()
+          ? hg::text("%" CeedInt_FMT " nodes each and strides [%" CeedInt_FMT ", %" CeedInt_FMT ", %" CeedInt_FMT "]",
+                     elem_size, shown[0], shown[1], shown[2])
+          : hg::text("%" CeedInt_FMT " nodes each and component stride %" CeedInt_FMT, elem_size, comp_stride);
+  hg::Lines(stream, num_view_tabs)(
+      0, "%sCeedElemRestriction%s from (%td, %" CeedInt_FMT ") to %" CeedInt_FMT " elements with %s",
+      block_size > 1 ? "Blocked " : "", is_points() ? " at points" : "", l_size, num_comp, num_elem, nodes.c_str());
 }
 
 int CeedElemRestrictionView(CeedElemRestriction rstr, FILE *stream) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "view.hpp"
+
 namespace {
 
 /// Never destroyed: programs may still hold the sentinels when they end.
@@ -239,21 +241,21 @@ int CeedVectorViewRange(CeedVector vec, CeedSize start, CeedSize stop, CeedInt s
     hg::require(step != 0, CEED_ERROR_MINOR, "View range 'step' must be nonzero");
     hg::require(start >= 0 && start <= v.length, CEED_ERROR_DIMENSION,
                 [&] { return hg::text("View range starts at %td; expected an index in [0, %td]", start, v.length); });
-    const std::string indent = hg::tabs(v);
-    const char *tab = indent.c_str();
-    std::fprintf(stream, "%sCeedVector length %td\n", tab, v.length);
+    const hg::Lines line(stream, v.num_view_tabs);
+    line(0, "CeedVector length %td", v.length);
     if (v.is_sentinel) return;
     if (start != 0 || stop != v.length || step != 1) {
-      std::fprintf(stream, "%s  start: %td\n%s  stop:  %td\n%s  step:  %" CeedInt_FMT "\n", tab, start, tab, stop, tab,
-                   step);
+      line(1, "start: %td", start);
+      line(1, "stop:  %td", stop);
+      line(1, "step:  %" CeedInt_FMT, step);
     }
     const CeedSize end = stop < 0 || stop > v.length ? v.length : stop;
-    const std::string format = indent + "  " + (fp_fmt != nullptr ? fp_fmt : "%g") + "\n";
+    const char *format = fp_fmt != nullptr ? fp_fmt : "%g";
     const hg::ReadArray array(vec);
     for (CeedSize i = start; step > 0 ? i < end : i > end; i += step) {
-      if (i < v.length) std::fprintf(stream, format.c_str(), array[i]);
+      if (i < v.length) line(1, format, array[i]);
     }
-    if (end < v.length) std::fprintf(stream, "%s  ...\n", tab);
+    if (end < v.length) line(1, "...");
   });
 }
 

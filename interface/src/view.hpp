@@ -1,5 +1,5 @@
 /// @file
-/// Lines of the View functions: each is indented by two spaces a step.
+/// Lines of the View functions: each is indented by two spaces a step, num_view_tabs steps for the object itself.
 #pragma once
 
 #include <cstdarg>
