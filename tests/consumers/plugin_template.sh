@@ -23,11 +23,12 @@ for name in first backend; do
   [ "$exported" = ceed_plugin_v1 ] || fail "$name.so exports $exported; expected ceed_plugin_v1 alone"
 done
 
-# By an explicit load, and in CEED_PLUGIN_PATH: the whole suite.
-"$info" --plugin template/first.so --check /cpu/self/first > log 2>&1 || fail "first.so:" log
+# By an explicit load, the whole suite; and in CEED_PLUGIN_PATH.
+some='*Restriction*:*OperatorTest*'
+"$info" --plugin template/first.so --check /cpu/self/first --cases "$some" > log 2>&1 || fail "first.so:" log
 "$info" --plugin template/backend.so --check /cpu/self/template > log 2>&1 || fail "backend.so:" log
 expect log " 0 failed, 0 crashed, 0 skipped"
-CEED_PLUGIN_PATH=$PWD/template "$info" --support > log 2>&1 || fail "--support:" log
+CEED_PLUGIN_PATH=$PWD/template "$info" --support --cases "$some" > log 2>&1 || fail "--support:" log
 expect log "/cpu/self/template"
 expect log "/cpu/self/first"
 
