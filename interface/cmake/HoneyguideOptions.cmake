@@ -70,6 +70,10 @@ if(HONEYGUIDE_MECHANICS AND NOT (HONEYGUIDE_HAVE_PETSC AND HDF5_FOUND AND METIS_
   set(HONEYGUIDE_MECHANICS OFF)
 endif()
 
+# What tests that start MPI programs have in their environment: containers run as root on few cores.
+set(hg_mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+    OMPI_MCA_btl_base_warn_component_unused=0 OMPI_MCA_mpi_yield_when_idle=1 OMP_NUM_THREADS=1)
+
 # MPI's C++ bindings are not used; this keeps their headers out of -Wextra's sight.
 function(hg_use_petsc target)
   target_link_libraries(${target} PUBLIC PkgConfig::PETSC MPI::MPI_CXX)

@@ -14,5 +14,5 @@ if(TARGET honeyguide)
            COMMAND ${Python3_EXECUTABLE} "${PROJECT_SOURCE_DIR}/docs/verification/mms_linear.py" --check
                    --honeyguide $<TARGET_FILE:honeyguide> --mpiexec ${MPIEXEC_EXECUTABLE})
   set_tests_properties(mechanics.mms_linear PROPERTIES LABELS "mechanics;long" TIMEOUT 1200 PROCESSORS 2 ENVIRONMENT
-    "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_btl_base_warn_component_unused=0;OMP_NUM_THREADS=1")
+    "${hg_mpi_environment}")
 endif()
