@@ -37,7 +37,9 @@ class Runner:
         # One linear solve; the errors of equal weights are large beside what the looser tolerance leaves (1e-5 of them).
         command += ["-snes_type", "ksponly", "-ksp_rtol", 1e-6 if placement == "uniform" and points else 1e-9, *options]
         if method == "mpm":
-            command += ["-mpm_num_points_per_cell", points, "-mpm_point_location_type", placement]
+            # The solution moves the wall outwards by 0.003, and the points next to it; errors are taken before that matters.
+            command += ["-mpm_num_points_per_cell", points, "-mpm_point_location_type", placement,
+                        "-mpm_point_outside", "project"]
         command = [str(word) for word in command]
         run = subprocess.run(command, capture_output=True, text=True)
         found = re.findall(r"L2 error against the manufactured solution(, at the points)?: (\S+)", run.stdout)
@@ -78,11 +80,9 @@ def check(runner):
         checks.rate(f"MPM order 1, {points} uniform points", *plain, 2, 2, 0.15)
 
     values = {(o, p, n): e for o, p, n, e in published()}
-    computed = {}
-    for points in (8, 27, 64):
-        for cells in (5, 8):
-            computed[points, cells] = error = runner.errors("mpm", 2, cells, points)[1]
-            reference = values[2, points, cells]
+    for points in (8, 27, 64, 125):
+        for cells in (5, 10, 20):
+            error, reference = runner.errors("mpm", 2, cells, points)[1], values[2, points, cells]
             checks.that(abs(error / reference - 1) < 0.1,
                         f"MPM order 2, {points} points, {cells}³ cells: {error:.3e}, published {reference:.3e}")
     # The published order-1 errors are those of two cells more in each direction: see mms_linear.md.
@@ -110,7 +110,7 @@ def study(runner, max_cells, csv_path, plot_path):
     sizes = sorted({n for *_, n in wanted})
     wanted += [("mpm", 1, "uniform", p, n + 2) for o, p, n, _ in published() if o == 1 and n <= max_cells]
     wanted += [("fem", order, "", 0, n) for order in (1, 2) for n in sizes]
-    wanted += [("mpm", order, "gauss", (order + 1) ** 3, n) for order in (1, 2) for n in sizes]
+    wanted += [("mpm", order, "gauss", (order + 1) ** 3, n) for order in (1, 2) for n in sizes if n <= 30]  # as FEM
     wanted = sorted(set(wanted), key=lambda w: (w[4], w))
     with open(csv_path, "a") as file:
         writer = csv.DictWriter(file, FIELDS)
