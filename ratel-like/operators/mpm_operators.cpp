@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "operators/qfunction_specs.hpp"
+#include "operators/quadrature.hpp"
 #include "options/error.hpp"
 #include "qfunctions/common/contexts.h"
 
@@ -37,7 +39,8 @@ constexpr UpdatedField updated[] = {{"x_new", field::x, 3},
 
 }  // namespace
 
-MpmOperators::MpmOperators(const Mesh &mesh, std::span<const RegionMaterial> regions) : SolidOperators(mesh, regions) {
+MpmOperators::MpmOperators(const Mesh &mesh, std::span<const RegionMaterial> regions, double void_stiffness)
+    : SolidOperators(mesh, regions), void_stiffness_(void_stiffness) {
   const auto q_1d = static_cast<CeedInt>(mesh.order + 1);
   basis_u_ = mesh.basis(mesh.order, 3, q_1d, CEED_GAUSS);
   basis_x_ = mesh.basis(1, 3, q_1d, CEED_GAUSS);
@@ -61,12 +64,60 @@ Integration MpmOperators::make_part(const std::function<CeedElemRestrictionHandl
   return part;
 }
 
+std::optional<Integration> MpmOperators::make_void(const PointEpoch &epoch, const Swarm &swarm) {
+  const auto num_cells = static_cast<std::size_t>(epoch.num_cells());
+  active_cells_.assign(num_cells, 0);
+  for (std::size_t c = 0; c < num_cells; c++) active_cells_[c] = epoch.starts()[c + 1] > epoch.starts()[c];
+  if (void_stiffness_ == 0. || num_cells == 0) return {};
+
+  const auto q_1d = static_cast<CeedInt>(mesh_->order + 1);
+  const auto per_cell = static_cast<std::size_t>(q_1d * q_1d * q_1d);
+  if (cell_volumes_.empty()) {
+    std::vector<CeedInt> every(num_cells);
+    std::iota(every.begin(), every.end(), 0);
+    Integration mesh_part = quadrature_part(*mesh_, every, q_1d);
+    add_geometry(mesh_part);
+    const std::vector<double> q_data = to_host(mesh_part.at_points.at(field_names::q_data).values);
+    cell_volumes_.assign(num_cells, 0.);
+    for (std::size_t q = 0; q < num_cells * per_cell; q++) cell_volumes_[q / per_cell] += q_data[10 * q];
+  }
+  const ElasticParameters &softest = std::ranges::min_element(regions_, {}, [](const RegionMaterial &region) {
+                                       return region.parameters.E;
+                                     })->parameters;
+  const PointField<double> V(swarm, field::V);
+  std::vector<CeedInt> cells;
+  std::vector<double> moduli;
+  for (std::size_t c = 0; c < num_cells; c++) {
+    double filled = 0.;
+    for (CeedInt k = epoch.starts()[c]; k < epoch.starts()[c + 1]; k++) filled += V[epoch.order()[k]];
+    const double factor = void_stiffness_ * (1. - 2. * filled / cell_volumes_[c]);
+    if (factor <= 0.) continue;
+    active_cells_[c] = 1;
+    cells.push_back(static_cast<CeedInt>(c));
+    for (std::size_t q = 0; q < per_cell; q++) {
+      moduli.insert(moduli.end(), {factor * softest.bulk_modulus(), factor * softest.shear_modulus()});
+    }
+  }
+  if (cells.empty()) return {};
+  Integration part = quadrature_part(*mesh_, cells, q_1d);
+  part.material = &find_material("elasticity-linear");
+  add_geometry(part);
+  std::vector<double> identity(9 * cells.size() * per_cell, 0.);
+  for (std::size_t i = 0; i < identity.size(); i++) identity[i] = i % 9 % 4 == 0;
+  part.at_points[field_names::F] = {part.restriction(9), make_vector(ceed_, identity)};
+  part.at_points[field_names::moduli] = {part.restriction(2), make_vector(ceed_, moduli)};
+  return part;
+}
+
 void MpmOperators::attach(const PointEpoch &epoch, const Swarm &swarm) {
   const CeedInt num_points = epoch.num_points();
   all_ = {};
   values_.clear();
-  build({});
-  if (num_points == 0) return;
+  std::optional<Integration> support = make_void(epoch, swarm);
+  if (num_points == 0) {
+    build({}, std::move(support));
+    return;
+  }
 
   for (const CarriedField &field : carried) {
     values_[field.name] = epoch.vector(field.num_comp, PointField<double>(swarm, field.field).span());
@@ -122,7 +173,7 @@ void MpmOperators::attach(const PointEpoch &epoch, const Swarm &swarm) {
     part.at_points[field_names::q_data] = {restriction(10), share(all_.at_points.at(field_names::q_data).values.get())};
     parts.push_back(std::move(part));
   }
-  build(std::move(parts));
+  build(std::move(parts), std::move(support));
 }
 
 void MpmOperators::update_points(CeedVector delta_u, double delta_t, Swarm &swarm) {

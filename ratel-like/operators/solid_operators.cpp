@@ -32,18 +32,20 @@ CeedOperatorHandle SolidOperators::compose(const QFunctionSpec &spec, CeedQFunct
   return composite;
 }
 
-void SolidOperators::build(std::vector<Integration> parts) {
+void SolidOperators::build(std::vector<Integration> parts, std::optional<Integration> support) {
   body_force_.reset();
   mms_force_.reset();
   parts_ = std::move(parts);
   ceed_check(CeedOperatorCreateComposite(ceed_, residual_.put()));
   ceed_check(CeedOperatorCreateComposite(ceed_, jacobian_.put()));
-  for (Integration &part : parts_) {
+  const auto add = [&](Integration &part) {
     const Material &material = *part.material;
     if (material.num_linearization) part.add(field_names::linearization, material.num_linearization);
     ceed_check(CeedOperatorCompositeAddSub(residual_, part.make(cache_, material.residual)));
     ceed_check(CeedOperatorCompositeAddSub(jacobian_, part.make(cache_, material.jacobian)));
-  }
+  };
+  for (Integration &part : parts_) add(part);
+  if (support) add(*support);
 }
 
 void SolidOperators::add_geometry(Integration &part) {

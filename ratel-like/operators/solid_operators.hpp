@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -67,8 +68,9 @@ class SolidOperators {
   SolidOperators(const Mesh &mesh, std::span<const RegionMaterial> regions);
 
   /// Takes one Integration for each material in use, with the fields q_data, F, moduli, rho at points and u, v, nodes
-  /// on the mesh, and makes residual and Jacobian. Operators made earlier are dropped.
-  void build(std::vector<Integration> parts);
+  /// on the mesh, and makes residual and Jacobian. Operators made earlier are dropped. `support`, with the same fields,
+  /// adds to residual and Jacobian alone: it has no mass, no load, and no place in any sum.
+  void build(std::vector<Integration> parts, std::optional<Integration> support = {});
   /// q_data of a part, by its geometry QFunction; `V` must be there for material points.
   void add_geometry(Integration &part);
   /// What a QFunction's output `output` (num_comp values at each integration point) is for the active vector `active`;

@@ -12,7 +12,7 @@ namespace hg {
 MpmRun::MpmRun(Setup &setup)
     : setup_(setup),
       swarm_(setup.comm),
-      operators_(*setup.mesh, setup.materials),
+      operators_(*setup.mesh, setup.materials, setup.swarm.void_stiffness),
       solver_(*setup.mesh, operators_, *setup.boundary, setup.options),
       on_mesh_(setup) {
   petsc_check(DMCreateGlobalVector(setup.mesh->dm, delta_u_.put()));
@@ -78,9 +78,7 @@ void MpmRun::build_epoch() {
   StageScope stage(Stage::update);
   epoch_.emplace(setup_.ceed, setup_.mesh->num_cells, swarm_);
   operators_.attach(*epoch_, swarm_);
-  std::vector<char> active(setup_.mesh->num_cells);
-  for (std::size_t c = 0; c < active.size(); ++c) active[c] = epoch_->starts()[c + 1] > epoch_->starts()[c];
-  solver_.operators_changed(active);
+  solver_.operators_changed(operators_.active_cells());
 }
 
 void MpmRun::solve() {

@@ -82,6 +82,11 @@ SwarmOptions SwarmOptions::read(MPI_Comm comm) {
                                            {"error", "project", "remove"}, "error");
   o.outside = outside == "error" ? OutsidePolicy::kError
                                  : (outside == "project" ? OutsidePolicy::kProject : OutsidePolicy::kRemove);
+  o.void_stiffness =
+      group.real("mpm_void_stiffness",
+                 "stiffness of cells that have lost their points, as a fraction of the softest region's; "
+                 "it falls to zero where points fill half of a cell",
+                 o.void_stiffness, Range::at_least(0));
   o.check();
   return o;
 }

@@ -43,6 +43,8 @@ struct SwarmOptions {
   PetscInt seed = 42;                                   ///< -mpm_seed, for cell_random
   OutsidePolicy outside = OutsidePolicy::kError;        ///< -mpm_point_outside error|project|remove
 
+  double void_stiffness = 0.;  ///< -mpm_void_stiffness: see MpmOperators
+
   /// Reads and checks them; a bad value throws hg::Error that names option, value and expectation. Collective.
   static SwarmOptions read(MPI_Comm comm);
   /// Throws hg::Error on a number of points that the placement cannot have.
