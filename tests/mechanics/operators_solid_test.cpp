@@ -1,6 +1,9 @@
 // Operators of FEM and MPM through the C interface: derivatives, symmetry, patch tests, rigid motions, loads, updates.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "operators_fixture.hpp"
 
 namespace hg::test {
@@ -412,6 +415,52 @@ TEST(Points, NoneAtAllGiveZero) {
   body.mpm().update_points(body.vector(u), 1., none.swarm);
   EXPECT_EQ(body.totals(u).mass, 0.);
   EXPECT_TRUE(body.mpm().point_diagnostics(body.vector(u)).empty());
+}
+
+// The void is linear elasticity with the softest region's moduli times a factor, in cells that are less than half full.
+TEST(Void, SupportsCellsByHowMuchTheyHaveLost) {
+  const double stiffness = 0.02;
+  for (const auto &[filled, factor] : {std::pair(0., 1.), std::pair(1. / 3., 1. / 3.), std::pair(2. / 3., 0.)}) {
+    // Of the third layer of cells, 2/3 < x < 1, the points fill this part.
+    const double end = 2. / 3. + filled / 3.;
+    const Body body({.name = "box", .order = 2, .bent = false}, current, linear);
+    const Points points(*body.mesh, body.fillings, PointPlacement::kUniform, 27,
+                        [end](const double *x) { return x[0] > end ? -1 : x[0] > 0.5; });
+    MpmOperators plain(*body.mesh, body.fillings), held(*body.mesh, body.fillings, stiffness);
+    plain.attach(*points.epoch, points.swarm);
+    held.attach(*points.epoch, points.swarm);
+    EXPECT_EQ(std::ranges::count(held.active_cells(), 1), body.mesh->num_cells);
+    EXPECT_EQ(sum_ranks(std::ranges::count(plain.active_cells(), 1)), filled > 0. ? 12. : 8.);
+
+    const Tensor H = Random(17).near_identity(0.1);
+    const auto u = at_nodes(*body.mesh, [&](const double *x, double *v) {
+      for (int i = 0; i < 3; i++) v[i] = 0.1 * (H[3 * i] * x[0] + H[3 * i + 1] * x[1] + H[3 * i + 2] * x[2]) + 0.3;
+    });
+    double trace = 0., square = 0.;
+    for (int i = 0; i < 3; i++) {
+      trace += 0.1 * H[4 * i];
+      for (int j = 0; j < 3; j++) square += std::pow(0.05 * (H[3 * i + j] + H[3 * j + i]), 2);
+    }
+    const double twice_energy =
+        factor * stiffness / 3. * (2. * soft.shear_modulus() * square + soft.lame_lambda() * trace * trace);
+    for (const bool linearised : {false, true}) {
+      if (linearised) {
+        plain.linearize(body.vector(u));
+        held.linearize(body.vector(u));
+      }
+      const auto force = plus(apply(*body.mesh, linearised ? held.jacobian() : held.residual(), u), -1.,
+                              apply(*body.mesh, linearised ? plain.jacobian() : plain.residual(), u));
+      EXPECT_NEAR(pair(force, u), twice_energy, 1e-13) << filled;
+      const auto along = at_nodes(*body.mesh, [](const double *, double *v) { v[0] = 1., v[1] = 2., v[2] = -1.; });
+      EXPECT_NEAR(pair(force, along), 0., 1e-14);
+    }
+    // It has no mass and takes no load.
+    const CeedVectorHandle with = body.empty(), without = body.empty();
+    held.body_force({1., 2., 3.}, with);
+    plain.body_force({1., 2., 3.}, without);
+    EXPECT_EQ(to_host(with), to_host(without));
+    EXPECT_EQ(held.integrals(body.vector(u))[1].strain_energy, plain.integrals(body.vector(u))[1].strain_energy);
+  }
 }
 
 // ∫|u_mms|² with u = 0, and the interpolated solution, which is closer the finer the space.
