@@ -15,6 +15,9 @@ function(ceed_add_backend name)
   target_link_libraries(ceed_${name} PRIVATE ceed hg_build_flags)
   set_target_properties(ceed_${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY "$<TARGET_FILE_DIR:ceed>/ceed-plugins" INSTALL_RPATH "$ORIGIN/..")
+  file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/generated/plugin.map"
+       CONTENT "{ global: ceed_plugin_v1; local: *; };\n")
+  target_link_options(ceed_${name} PRIVATE "LINKER:--version-script=${PROJECT_BINARY_DIR}/generated/plugin.map")
   install(TARGETS ceed_${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/ceed-plugins")
 endfunction()
 

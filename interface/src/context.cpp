@@ -51,6 +51,19 @@ void require_inside(const CeedQFunctionContext_private &c, const CeedContextFiel
       where);
 }
 
+/// Counts a reader; the backend hears of the first and of the last.
+void begin_reading(CeedQFunctionContext_private &c) {
+  const auto get = c.ceed->ops.context.get_data_read;
+  if (c.num_readers == 0 && get != nullptr) hg::check(get(&c, c.size, c.values));
+  c.num_readers++;
+}
+
+void end_reading(CeedQFunctionContext_private &c) {
+  c.num_readers--;
+  const auto restore = c.ceed->ops.context.restore_data_read;
+  if (c.num_readers == 0 && restore != nullptr) hg::check(restore(&c, c.size, c.values));
+}
+
 int add_field(CeedQFunctionContext ctx, const char *name, CeedContextFieldType type, std::size_t value_size,
               std::size_t offset, std::size_t num_values, const char *description,
               const char *function = __builtin_FUNCTION()) {
@@ -141,7 +154,7 @@ int get_field(CeedQFunctionContext ctx, CeedContextFieldLabel label, CeedContext
         require_readable(c);
         *values = static_cast<const T *>(field_values(c, label, type));
         if (num_values != nullptr) *num_values = label->num_values;
-        c.num_readers++;
+        begin_reading(c);
       },
       function);
 }
@@ -273,7 +286,7 @@ int CeedQFunctionContextGetDataRead(CeedQFunctionContext ctx, CeedMemType mem_ty
     require_host(c, mem_type, "CeedQFunctionContextGetDataRead");
     require_data(c);
     *static_cast<void **>(data) = c.values;
-    c.num_readers++;
+    begin_reading(c);
   });
 }
 
@@ -293,7 +306,7 @@ int CeedQFunctionContextRestoreDataRead(CeedQFunctionContext ctx, void *data) {
     hg::require(c.num_readers > 0, CEED_ERROR_ACCESS,
                 "Cannot restore CeedQFunctionContext data read access, access was not granted");
     if (data != nullptr) *static_cast<void **>(data) = nullptr;
-    c.num_readers--;
+    end_reading(c);
   });
 }
 

@@ -196,9 +196,10 @@ int CeedVectorRestoreArray(CeedVector vec, CeedScalar **array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
     hg::require(v.has_writer(), CEED_ERROR_ACCESS, "Cannot restore CeedVector array access, access was not granted");
-    if (v.ops().restore_array != nullptr) hg::check(v.ops().restore_array(vec));
+    // Whatever the backend thinks of what was done, the access is over.
     if (array != nullptr) *array = nullptr;
     v.state++;
+    if (v.ops().restore_array != nullptr) hg::check(v.ops().restore_array(vec));
   });
 }
 
@@ -208,9 +209,9 @@ int CeedVectorRestoreArrayRead(CeedVector vec, const CeedScalar **array) {
     hg::require(v.num_readers > 0, CEED_ERROR_ACCESS,
                 "Cannot restore CeedVector array read access, access was not granted");
     // The backend hears of the last reader only: that is when its array may move.
-    if (v.num_readers == 1 && v.ops().restore_array_read != nullptr) hg::check(v.ops().restore_array_read(vec));
     if (array != nullptr) *array = nullptr;
     v.num_readers--;
+    if (v.num_readers == 0 && v.ops().restore_array_read != nullptr) hg::check(v.ops().restore_array_read(vec));
   });
 }
 

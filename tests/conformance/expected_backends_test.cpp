@@ -10,6 +10,7 @@ using namespace hg::test;
 /// Always built, and open on every machine.
 const char *const required[] = {
     "/cpu/self/ref/serial",
+    "/cpu/self/memcheck/serial",
 };
 
 TEST(ExpectedBackends, AreListedAndOpen) {

@@ -31,8 +31,8 @@ typedef struct {
   int (*get_array_write)(CeedVector vec, CeedMemType mem_type, CeedScalar **array);
   int (*has_valid_array)(CeedVector vec, bool *has_valid_array);
   int (*has_borrowed_array)(CeedVector vec, CeedMemType mem_type, bool *has_borrowed_array);
-  int (*restore_array)(CeedVector vec);                                            ///< optional
-  int (*restore_array_read)(CeedVector vec);                                       ///< optional
+  int (*restore_array)(CeedVector vec);                                            ///< optional; the access is over
+  int (*restore_array_read)(CeedVector vec);                                       ///< optional; the last reader's
   int (*set_value)(CeedVector vec, CeedScalar value);                              ///< optional
   int (*norm)(CeedVector vec, CeedNormType type, CeedScalar *norm);                ///< optional
   int (*scale)(CeedVector x, CeedScalar alpha);                                    ///< optional
@@ -173,6 +173,14 @@ typedef struct {
   int (*linear_assemble)(CeedOperator op, const CeedProgram *program, CeedSize offset, CeedVector values);
 } CeedOperatorOps;
 
+/// Contexts, whose data the core keeps on the host. A backend may watch them; all entries are optional.
+typedef struct {
+  /// The first reader comes: `size` bytes at `data`, which nobody may change before the next call.
+  int (*get_data_read)(CeedQFunctionContext ctx, size_t size, const void *data);
+  /// The last reader has gone. What this returns is told to him.
+  int (*restore_data_read)(CeedQFunctionContext ctx, size_t size, void *data);
+} CeedQFunctionContextOps;
+
 /// All that a backend does.
 typedef struct {
   size_t size;           ///< sizeof(CeedBackendOps) as the backend was compiled; set by the core for a copy
@@ -187,6 +195,7 @@ typedef struct {
   CeedBasisOps basis;
   CeedQFunctionOps qfunction;
   CeedOperatorOps op;
+  CeedQFunctionContextOps context;
 } CeedBackendOps;
 
 /// One backend of a plugin.
