@@ -231,6 +231,9 @@ TEST_F(RestrictionFacts, HaveSizesBeyond32Bits) {
   ok(create_strided(1 << 20, 4096, 3, size, {0, 0, 0}));
   EXPECT_EQ(ask(CeedElemRestrictionGetEVectorSize), size);
   EXPECT_GT(size, CeedSize{largest});
+  // 2^18 blocks of four elements, and the last one's copies.
+  ok(CeedElemRestrictionCreateBlockedStrided(ceed, (1 << 20) - 3, 4096, 4, 3, size, CEED_STRIDES_BACKEND, rstr.out()));
+  EXPECT_EQ(ask(CeedElemRestrictionGetEVectorSize), size);
 }
 
 TEST_F(RestrictionFacts, RefuseBadStrides) {
