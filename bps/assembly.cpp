@@ -39,8 +39,8 @@ void add_options(CLI::App &app, Options &options) {
 
 void print(const AssemblyRecord &record) {
   for (const AssemblyTimes &times : record.kinds) {
-    fmt::print("{:4} p={} {:>4} points a cell  {:12}  {:10.3f} us at quadrature points  ", record.problem, record.degree,
-               record.points_per_cell, times.kind, 1e6 * times.at_quadrature);
+    fmt::print("{:4} p={} {:>4} points a cell  {:12}  {:10.3f} us at quadrature points  ", record.problem,
+               record.degree, record.points_per_cell, times.kind, 1e6 * times.at_quadrature);
     if (times.at_points) {
       fmt::print("{:10.3f} us at points  ratio {:.2f}\n", 1e6 * *times.at_points, times.ratio());
     } else {

@@ -35,7 +35,8 @@ class Assembly {
   /// Returns the error code of the library.
   int run() {
     if (kind_ == "diagonal") return CeedOperatorLinearAssembleDiagonal(op_, values_, CEED_REQUEST_IMMEDIATE);
-    if (kind_ == "point blocks") return CeedOperatorLinearAssemblePointBlockDiagonal(op_, values_, CEED_REQUEST_IMMEDIATE);
+    if (kind_ == "point blocks")
+      return CeedOperatorLinearAssemblePointBlockDiagonal(op_, values_, CEED_REQUEST_IMMEDIATE);
     if (kind_ == "matrix") return CeedOperatorLinearAssemble(op_, values_);
     // Into the same vector each time.
     return CeedOperatorLinearAssembleQFunctionBuildOrUpdate(op_, values_.address(), restriction_.address(),

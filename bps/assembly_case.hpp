@@ -13,8 +13,8 @@ namespace hg::bps {
 
 /// The kinds of assembly that are timed, in the order of AssemblyRecord::kinds.
 struct AssemblyTimes {
-  std::string kind;           ///< `qfunction`, `diagonal`, `point blocks`, `matrix`
-  double at_quadrature = 0;   ///< best seconds for an element
+  std::string kind;                 ///< `qfunction`, `diagonal`, `point blocks`, `matrix`
+  double at_quadrature = 0;         ///< best seconds for an element
   std::optional<double> at_points;  ///< empty: the library refuses
 
   double ratio() const { return *at_points / at_quadrature; }

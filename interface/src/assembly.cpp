@@ -165,9 +165,8 @@ int CeedOperatorLinearAssembleSymbolic(CeedOperator op, CeedSize *num_entries_ou
     hg::check(CeedOperatorLinearAssembleGetNumEntries(op, &count));
     hg::require_index_range(*op);
     auto indices = hg::allocate_indices(*op, count);
-    hg::for_each_single(*op, [&](CeedOperator_private &single) {
-      symbolic(single, indices.rows.get(), indices.cols.get(), k);
-    });
+    hg::for_each_single(
+        *op, [&](CeedOperator_private &single) { symbolic(single, indices.rows.get(), indices.cols.get(), k); });
     *num_entries_out = count;
     *rows = indices.rows.release();
     *cols = indices.cols.release();

@@ -29,12 +29,14 @@ void require_linearisable(const CeedOperator_private &op, const CeedProgram &pro
 class PointMatrices {
  public:
   PointMatrices(const CeedProgram &program, const CeedScalar *element_values, CeedInt Q)
-      : values_(element_values), num_out_(program.num_active_out),
+      : values_(element_values),
+        num_out_(program.num_active_out),
         point_stride_(program.at_points ? program.num_active_in * program.num_active_out : 1),
         component_stride_(program.at_points ? 1 : Q) {}
   /// Derivative of output value o by input value i at point q.
   CeedScalar operator()(CeedInt q, CeedInt i, CeedInt o) const {
-    return values_[static_cast<CeedSize>(q) * point_stride_ + static_cast<CeedSize>(i * num_out_ + o) * component_stride_];
+    return values_[static_cast<CeedSize>(q) * point_stride_ +
+                   static_cast<CeedSize>(i * num_out_ + o) * component_stride_];
   }
 
  private:
@@ -43,8 +45,8 @@ class PointMatrices {
   CeedSize point_stride_, component_stride_;
 };
 
-/// Calls visit(e, Q, D) for each element with its Q points and its assembled QFunction: from what is kept where the user
-/// asked for reuse, else assembled for some elements after others, so that memory does not grow with the mesh.
+/// Calls visit(e, Q, D) for each element with its Q points and its assembled QFunction: from what is kept where the
+/// user asked for reuse, else assembled for some elements after others, so that memory does not grow with the mesh.
 void for_each_assembled_element(CeedOperator_private &op, const CeedProgram &program,
                                 const std::function<void(CeedInt, CeedInt, const PointMatrices &)> &visit);
 
@@ -129,7 +131,8 @@ struct Coupling {
   Functions trial, test;
 
   CeedSize num_entries(CeedInt e) const {
-    return static_cast<CeedSize>(trial.rstr().num_nodes(e)) * trial.num_comp() * test.rstr().num_nodes(e) * test.num_comp();
+    return static_cast<CeedSize>(trial.rstr().num_nodes(e)) * trial.num_comp() * test.rstr().num_nodes(e) *
+           test.num_comp();
   }
 };
 /// All couplings, in the order of the entries of the assembled matrix: by source, then by sink.
@@ -150,8 +153,8 @@ void require_index_range(CeedOperator_private &op);
 /// Element matrices of couplings.
 class ElementMatrix {
  public:
-  /// K: rows (component, node) of the test functions, columns (component, node) of the trial functions, row-major; it is
-  /// overwritten.
+  /// K: rows (component, node) of the test functions, columns (component, node) of the trial functions, row-major; it
+  /// is overwritten.
   void compute(const Coupling &coupling, CeedInt e, CeedInt Q, const PointMatrices &D, CeedScalar *K);
 
  private:

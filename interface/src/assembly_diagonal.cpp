@@ -42,9 +42,10 @@ BlockLayout block_layout(CeedOperator_private &op) {
         if (!is_known) layout = {rstr.num_comp, comp_stride};
         is_known = true;
         require(rstr.num_comp == 1 || comp_stride > 0, CEED_ERROR_INCOMPATIBLE, [&] {
-          return text("CeedOperator '%s': the components of an active field are 0 entries apart; point blocks need them "
-                      "apart",
-                      single.shown_name());
+          return text(
+              "CeedOperator '%s': the components of an active field are 0 entries apart; point blocks need them "
+              "apart",
+              single.shown_name());
         });
         require(rstr.num_comp == layout.num_comp && (rstr.num_comp == 1 || comp_stride == layout.comp_stride),
                 CEED_ERROR_INCOMPATIBLE, [&] {
@@ -87,8 +88,8 @@ class ElementDiagonal {
                                          const std::vector<ComponentPair> &pairs) {
     const hg::Functions &trial = coupling.trial, &test = coupling.test;
     const auto num_pairs = static_cast<CeedInt>(pairs.size());
-    const CeedInt P_padded = hg::pad_to_tile(P), pairs_padded = hg::pad_to_tile(num_pairs),
-                  K = trial.num_rows(), L = test.num_rows();
+    const CeedInt P_padded = hg::pad_to_tile(P), pairs_padded = hg::pad_to_tile(num_pairs), K = trial.num_rows(),
+                  L = test.num_rows();
     // A product of the same two functions comes once.
     const bool is_symmetric = trial.has_rows_of(test);
     const CeedInt rows = is_symmetric ? K * (K + 1) / 2 : K * L;
@@ -107,7 +108,8 @@ class ElementDiagonal {
             for (CeedInt n = 0; n < P; n++) product[n] = t[n] * b[n];
             for (CeedInt i = 0; i < num_pairs; i++) {
               factor[i] = D(q, trial.value(k, pairs[i].column), test.value(l, pairs[i].row));
-              if (is_symmetric && l != k) factor[i] += D(q, trial.value(l, pairs[i].column), test.value(k, pairs[i].row));
+              if (is_symmetric && l != k)
+                factor[i] += D(q, trial.value(l, pairs[i].column), test.value(k, pairs[i].row));
             }
           }
         }
@@ -142,7 +144,8 @@ bool has_common_entry(const std::vector<CeedSize> &a, const std::vector<CeedSize
 /// Adds entries of one operator. is_block: array has the layout of the blocks, else it is the diagonal.
 class Adder {
  public:
-  Adder(CeedScalar *array, bool is_block, const BlockLayout &layout) : array_(array), is_block_(is_block), layout_(layout) {}
+  Adder(CeedScalar *array, bool is_block, const BlockLayout &layout)
+      : array_(array), is_block_(is_block), layout_(layout) {}
 
   void add(const hg::Coupling &coupling, CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
     const CeedElemRestriction_private &trial = coupling.trial.rstr(), &test = coupling.test.rstr();
@@ -258,9 +261,8 @@ void assemble(CeedOperator op, CeedVector assembled, bool is_block, bool is_adde
   });
   if (!is_added) hg::check(CeedVectorSetValue(assembled, 0.0));
   if (!target) return;
-  hg::for_each_single(*op, [&](CeedOperator_private &single) {
-    add_entries(single, assembled, is_block, target->layout);
-  });
+  hg::for_each_single(*op,
+                      [&](CeedOperator_private &single) { add_entries(single, assembled, is_block, target->layout); });
 }
 
 /// Rows and columns of the blocks of a space; -1 stands where no block has been. Two nodes in one place would make the
@@ -274,12 +276,14 @@ void block_indices(const CeedOperator_private &op, const CeedElemRestriction_pri
       for (CeedInt i = 0; i < num_comp * num_comp; i++) {
         const auto row = static_cast<CeedInt>(rstr.place(e, n, i / num_comp)),
                    col = static_cast<CeedInt>(rstr.place(e, n, i % num_comp));
-        require(rows[block + i] < 0 || (rows[block + i] == row && cols[block + i] == col), CEED_ERROR_INCOMPATIBLE, [&] {
-          return text("CeedOperator '%s': node %" CeedInt_FMT " of element %" CeedInt_FMT
+        require(rows[block + i] < 0 || (rows[block + i] == row && cols[block + i] == col), CEED_ERROR_INCOMPATIBLE,
+                [&] {
+                  return text(
+                      "CeedOperator '%s': node %" CeedInt_FMT " of element %" CeedInt_FMT
                       " shares some but not all entries of the L-vector with another node; expected nodes that are one "
                       "or apart, %" CeedInt_FMT " components %" CeedSize_FMT " entries apart",
                       op.shown_name(), n, e, num_comp, layout.comp_stride);
-        });
+                });
         rows[block + i] = row;
         cols[block + i] = col;
       }

@@ -74,7 +74,8 @@ Tabulation::Tabulation(const CeedProgram &program) : program_(program), spaces_(
       if (!is_used) return {};
       const std::vector<CeedScalar> &values = matrix(basis, mode);
       if (space.rstr->num_bands > 0) own = values;
-      return {space.rstr->num_bands > 0 ? own.data() : values.data(), basis.P, static_cast<CeedSize>(basis.Q) * basis.P};
+      return {space.rstr->num_bands > 0 ? own.data() : values.data(), basis.P,
+              static_cast<CeedSize>(basis.Q) * basis.P};
     };
     space.interp = of_basis(space.is_interpolated, CEED_EVAL_INTERP, space.own_interp);
     space.derivative = of_basis(space.is_derived, derivative_mode(basis.fe_space), space.own_derivative);

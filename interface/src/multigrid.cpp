@@ -1,7 +1,7 @@
 // Levels of p-multigrid: the operator on a coarse space over the same points, and the maps between the spaces.
 //
-// With the restriction R and orientation T of elements, the interpolation I from coarse to fine nodes of an element, and
-// the multiplicity m of entries of the fine L-vector, prolongation and restriction are
+// With the restriction R and orientation T of elements, the interpolation I from coarse to fine nodes of an element,
+// and the multiplicity m of entries of the fine L-vector, prolongation and restriction are
 //
 //   P = R_f^T T_f^T (I T_c R_c),  scaled by 1/m at each fine node,   and P^T:
 //
@@ -41,12 +41,13 @@ Space active_space(CeedOperator_private &op) {
         if (space.rstr == nullptr) space = {field->rstr.get(), field->basis.get()};
         require(hg::equal(*space.rstr, *field->rstr) && hg::equal(*space.basis, *field->basis), CEED_ERROR_INCOMPATIBLE,
                 [&] {
-                  return text("CeedOperator '%s' field '%s': the active field has another restriction or basis than an "
-                              "active field before it%s; a multigrid level replaces one space",
-                              single.shown_name(), field->qf_field->name.c_str(),
-                              op.is_composite ? ". Make a level of each sub-operator, with "
-                                                "CeedOperatorCompositeGetMultiplicity(), and compose them"
-                                              : "");
+                  return text(
+                      "CeedOperator '%s' field '%s': the active field has another restriction or basis than an "
+                      "active field before it%s; a multigrid level replaces one space",
+                      single.shown_name(), field->qf_field->name.c_str(),
+                      op.is_composite ? ". Make a level of each sub-operator, with "
+                                        "CeedOperatorCompositeGetMultiplicity(), and compose them"
+                                      : "");
                 });
       }
     }

@@ -11,10 +11,14 @@ namespace hg {
 /// Rows and columns that are summed at once; panels are padded to multiples of it.
 inline constexpr CeedInt panel_tile = 4;
 
-inline CeedInt pad_to_tile(CeedInt n) { return (n + panel_tile - 1) / panel_tile * panel_tile; }
+inline CeedInt pad_to_tile(CeedInt n) {
+  return (n + panel_tile - 1) / panel_tile * panel_tile;
+}
 
 /// Rows of a panel, of `width` numbers each, that stay in the first cache beside those of another.
-inline CeedInt panel_rows(CeedInt width) { return std::max<CeedInt>(2048 / std::max<CeedInt>(width, 1), 16); }
+inline CeedInt panel_rows(CeedInt width) {
+  return std::max<CeedInt>(2048 / std::max<CeedInt>(width, 1), 16);
+}
 
 /// C[m*c_stride + n] += Σ_i A[i*a_stride + m] B[i*b_stride + n] for i < count, m < num_rows, n < num_columns. A and B
 /// are read up to the padded widths. Flops: 2 count num_rows num_columns.

@@ -89,7 +89,9 @@ TEST_P(RandomAssembly, GivesThePointBlockDiagonal) {
     CeedSize num_used = 0;
     for (CeedSize i = 0; i < num_entries; i++) {
       const CeedSize node = i / (num_comp * num_comp);
-      const auto place = [&](CeedSize c) { return layout.comp_stride == 1 ? node * num_comp + c : node + c * n / num_comp; };
+      const auto place = [&](CeedSize c) {
+        return layout.comp_stride == 1 ? node * num_comp + c : node + c * n / num_comp;
+      };
       const CeedSize row = place(i / num_comp % num_comp), col = place(i % num_comp);
       want[i] = matrix[row * n + col];
       const bool is_unused = rows[i] == 0 && cols[i] == 0;

@@ -1,9 +1,10 @@
-// Assembly: reuse of what was assembled, counts that do not fit in 32 bits, rectangular operators.
+// Assembly: reuse of what was assembled, rectangular operators, many elements.
 #include <cstdlib>
 #include <memory>
 
 #include "backends.hpp"
 #include "oracle/affine_operator.hpp"
+#include "oracle/blend_operator.hpp"
 #include "oracle/elliptic.hpp"
 #include "oracle/instance.hpp"
 
@@ -102,27 +103,44 @@ TEST_P(AssemblyTest, BuildsOrUpdatesTheQFunction) {
   EXPECT_EQ(num_comp, 1);
 }
 
-/// Entries are counted past 2³¹: 1,200,000 elements of 3 components at degree 2, 27 nodes each.
-TEST_P(AssemblyTest, CountsEntriesBeyond32Bits) {
-  const CeedInt num_elem = 1200000;
+/// The same at points, where moved points make what was kept useless.
+TEST_P(AssemblyTest, KeepsTheQFunctionAtPoints) {
+  const CeedInt num_elem = 2;
+  const CeedInt nodes[6] = {0, 1, 2, 2, 3, 4}, few[6] = {3, 5, 6, 0, 2, 1}, many[9] = {3, 6, 9, 5, 0, 3, 2, 4, 1};
+  Random random(99);
   Restriction rstr;
-  // All elements share their nodes: only the count matters.
-  std::vector<CeedInt> offsets(static_cast<std::size_t>(num_elem) * 27);
-  for (std::size_t i = 0; i < offsets.size(); i++) offsets[i] = static_cast<CeedInt>(i % 27);
-  ok(CeedElemRestrictionCreate(ceed, num_elem, 27, 3, 27, 81, CEED_MEM_HOST, CEED_USE_POINTER, offsets.data(),
-                               rstr.out()));
+  ok(CeedElemRestrictionCreate(ceed, num_elem, 3, 1, 1, 5, CEED_MEM_HOST, CEED_COPY_VALUES, nodes, rstr.out()));
   Basis basis;
-  ok(CeedBasisCreateTensorH1Lagrange(ceed, 3, 3, 3, 2, CEED_GAUSS, basis.out()));
-  QFunction qf;
-  ok(CeedQFunctionCreateIdentity(ceed, 3, CEED_EVAL_INTERP, CEED_EVAL_INTERP, qf.out()));
-  Operator op;
-  ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
-  ok(CeedOperatorSetField(op, "input", rstr, basis, CEED_VECTOR_ACTIVE));
-  ok(CeedOperatorSetField(op, "output", rstr, basis, CEED_VECTOR_ACTIVE));
-  CeedSize count = 0;
-  ok(CeedOperatorLinearAssembleGetNumEntries(op, &count));
-  EXPECT_EQ(count, CeedSize{1200000} * 81 * 81);
-  EXPECT_GT(count, CeedSize{1} << 31);
+  ok(CeedBasisCreateTensorH1Lagrange(ceed, 1, 1, 3, 3, CEED_GAUSS, basis.out()));
+  const auto make_points = [&](const CeedInt *offsets, CeedInt count, Restriction &points_rstr) {
+    ok(CeedElemRestrictionCreateAtPoints(ceed, num_elem, count, 1, count, CEED_MEM_HOST, CEED_COPY_VALUES, offsets,
+                                         points_rstr.out()));
+  };
+  Restriction rstr_few, rstr_many;
+  make_points(few, 3, rstr_few);
+  make_points(many, 6, rstr_many);
+  const Vector x_few = make_vector(ceed, random.reals(3)), x_many = make_vector(ceed, random.reals(6)),
+               s_few = make_vector(ceed, random.reals(3)), s_many = make_vector(ceed, random.reals(6));
+  const auto make_operator = [&](CeedElemRestriction at, CeedVector s, CeedVector x) {
+    return make_blend(ceed, 7,
+                      {{CEED_EVAL_GRAD, 1, rstr, basis, CEED_VECTOR_ACTIVE}, {CEED_EVAL_NONE, 1, at, CEED_BASIS_NONE, s}},
+                      {{CEED_EVAL_INTERP, 1, rstr, basis, CEED_VECTOR_ACTIVE}}, {at, x});
+  };
+  const auto diagonal = [&](CeedOperator op) {
+    const Vector v = make_vector(ceed, 5, 1e30);
+    ok(CeedOperatorLinearAssembleDiagonal(op, v, CEED_REQUEST_IMMEDIATE));
+    return values_of(v);
+  };
+  const Operator op = make_operator(rstr_few, s_few, x_few);
+  ok(CeedOperatorSetQFunctionAssemblyReuse(op, true));
+  const Values first = diagonal(op);
+  set_values(s_few, random.reals(3));
+  EXPECT_EQ(diagonal(op), first) << "the QFunction that was kept";
+  ok(CeedOperatorSetQFunctionAssemblyDataUpdateNeeded(op, true));
+  expect_close(diagonal(op), diagonal(make_operator(rstr_few, s_few, x_few)), tolerance(50), "new values");
+  ok(CeedOperatorAtPointsSetPoints(op, rstr_many, x_many));
+  ok(CeedOperatorSetField(op, "in1", rstr_many, CEED_BASIS_NONE, s_many));
+  expect_close(diagonal(op), diagonal(make_operator(rstr_many, s_many, x_many)), tolerance(50), "moved points");
 }
 
 /// Thousands of elements: assembly in pieces gives what it gives at once.

@@ -385,7 +385,8 @@ TEST_P(MultigridTest, KeepsFieldsWithoutBasis) {
   const Space coarse(ceed, coarse_mesh, 1, Q_1d), fine(ceed, fine_mesh, 1, Q_1d);
   Restriction stored;
   const CeedInt strides[3] = {1, Q, 2 * Q};
-  ok(CeedElemRestrictionCreateStrided(ceed, fine_mesh.num_elem, Q, 2, fine_mesh.num_elem * Q * 2, strides, stored.out()));
+  ok(CeedElemRestrictionCreateStrided(ceed, fine_mesh.num_elem, Q, 2, fine_mesh.num_elem * Q * 2, strides,
+                                      stored.out()));
   const Operator op = make_blend(ceed, 3, {{CEED_EVAL_GRAD, 2, fine.rstr, fine.basis, CEED_VECTOR_ACTIVE}},
                                  {{CEED_EVAL_NONE, 2, stored, CEED_BASIS_NONE, CEED_VECTOR_ACTIVE}});
   const Vector ones = make_vector(ceed, fine_mesh.num_nodes, 1);

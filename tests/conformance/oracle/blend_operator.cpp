@@ -33,7 +33,8 @@ Operator make_blend(Ceed ceed, CeedInt seed, const std::vector<BlendField> &inpu
   ok(create(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
   const auto set = [&](const std::vector<BlendField> &fields, const std::string &prefix) {
     for (std::size_t i = 0; i < fields.size(); i++) {
-      ok(CeedOperatorSetField(op, (prefix + std::to_string(i)).c_str(), fields[i].rstr, fields[i].basis, fields[i].vec));
+      ok(CeedOperatorSetField(op, (prefix + std::to_string(i)).c_str(), fields[i].rstr, fields[i].basis,
+                              fields[i].vec));
     }
   };
   set(inputs, "in");

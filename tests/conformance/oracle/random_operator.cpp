@@ -17,7 +17,11 @@ Layout random_layout(Random &random, const OperatorWishes &wishes) {
 }
 
 RandomOperator::RandomOperator(Ceed ceed, Random &random, const OperatorWishes &wishes, const Layout &layout)
-    : ceed_(ceed), random_(random), wishes_(wishes), layout_(layout), num_elem_(random.integer(1, 5)),
+    : ceed_(ceed),
+      random_(random),
+      wishes_(wishes),
+      layout_(layout),
+      num_elem_(random.integer(1, 5)),
       Q_1d_(random.integer(2, wishes.dim == 3 ? 3 : 4)) {
   if (wishes_.at_points) {
     for (CeedInt e = 0; e < num_elem_; e++) num_points_.push_back(random.chance(0.3) ? 0 : random.integer(1, 7));
@@ -58,8 +62,8 @@ CeedBasis RandomOperator::make_basis(CeedInt num_comp, CeedInt &num_nodes, CeedE
   num_nodes = random_.integer(2, 9);
   const CeedElemTopology topology = topologies[dim - 1];
   const Values values = random_.reals(static_cast<CeedSize>(dim) * Q_ * num_nodes),
-               derivatives = random_.reals(static_cast<CeedSize>(3) * Q_ * num_nodes),
-               points = random_.reals(dim * Q_), weights = random_.reals(Q_, 0.1, 1);
+               derivatives = random_.reals(static_cast<CeedSize>(3) * Q_ * num_nodes), points = random_.reals(dim * Q_),
+               weights = random_.reals(Q_, 0.1, 1);
   if (kind == 1) {
     ok(CeedBasisCreateH1(ceed_, topology, num_comp, num_nodes, Q_, values.data(), derivatives.data(), points.data(),
                          weights.data(), basis.out()));
@@ -70,8 +74,8 @@ CeedBasis RandomOperator::make_basis(CeedInt num_comp, CeedInt &num_nodes, CeedE
     derivative = CEED_EVAL_DIV;
     description_ += " Hdiv";
   } else {
-    ok(CeedBasisCreateHcurl(ceed_, topology, num_comp, num_nodes, Q_, values.data(), derivatives.data(),
-                            points.data(), weights.data(), basis.out()));
+    ok(CeedBasisCreateHcurl(ceed_, topology, num_comp, num_nodes, Q_, values.data(), derivatives.data(), points.data(),
+                            weights.data(), basis.out()));
     derivative = CEED_EVAL_CURL;
     description_ += " Hcurl";
   }
@@ -91,7 +95,7 @@ CeedElemRestriction RandomOperator::make_restriction(CeedInt elem_size, CeedInt 
     for (const CeedInt node : nodes) offsets.push_back(is_interleaved ? node * num_comp : node);
   }
   description_ += " on " + std::to_string(num_comp) + " components";
-  switch (random_.integer(0, 3)) {
+  switch (random_.integer(0, 4)) {
     case 0: {
       const auto signs = std::make_unique<bool[]>(offsets.size());
       for (std::size_t i = 0; i < offsets.size(); i++) signs[i] = random_.chance(0.5);
@@ -109,6 +113,11 @@ CeedElemRestriction RandomOperator::make_restriction(CeedInt elem_size, CeedInt 
       description_ += ", curl-oriented";
       break;
     }
+    case 2:
+      ok(CeedElemRestrictionCreateBlocked(ceed_, num_elem_, elem_size, random_.integer(1, 4), num_comp, comp_stride,
+                                          l_size, CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(), rstr.out()));
+      description_ += ", blocked";
+      break;
     default:
       ok(CeedElemRestrictionCreate(ceed_, num_elem_, elem_size, num_comp, comp_stride, l_size, CEED_MEM_HOST,
                                    CEED_COPY_VALUES, offsets.data(), rstr.out()));
@@ -133,7 +142,7 @@ CeedElemRestriction RandomOperator::make_point_restriction(CeedInt num_comp, Cee
 
 void RandomOperator::add_active(std::vector<BlendField> &fields, CeedSize l_size) {
   const CeedInt num_comp = layout_.num_comp > 0 ? layout_.num_comp : random_.integer(1, std::min(wishes_.max_comp, 3)),
-                comp_stride = layout_.num_comp > 0   ? layout_.comp_stride
+                comp_stride = layout_.num_comp > 0  ? layout_.comp_stride
                               : random_.chance(0.5) ? 1
                                                     : static_cast<CeedInt>(l_size / num_comp);
   description_ += &fields == &inputs_ ? ", in:" : ", out:";

@@ -8,7 +8,8 @@
 
 #include "blend_context.h"
 
-CEED_QFUNCTION_HELPER CeedScalar blend_number(CeedInt seed, CeedInt o, CeedInt i) {
+CEED_QFUNCTION_HELPER
+CeedScalar blend_number(CeedInt seed, CeedInt o, CeedInt i) {
   const CeedInt mixed = (seed % 1009) * 7 + o * 193 + i * 389 + (o * i) % 31 * 57;
   return (mixed % 200) / (CeedScalar)100 - 1;
 }
@@ -26,7 +27,8 @@ CEED_QFUNCTION(blend)
         CeedScalar sum = 0;
         for (CeedInt f = 0, i = 0; f < blend_ctx->num_in; f++) {
           for (CeedInt k = 0; k < blend_ctx->in_size[f] && blend_ctx->in_is_active[f]; k++, i++) {
-            sum += (blend_number(blend_ctx->seed, o, i) + s * blend_number(blend_ctx->seed + 1, o, i)) * in[f][k * Q + q];
+            sum +=
+                (blend_number(blend_ctx->seed, o, i) + s * blend_number(blend_ctx->seed + 1, o, i)) * in[f][k * Q + q];
           }
         }
         out[g][l * Q + q] = sum;
