@@ -7,7 +7,7 @@ namespace hg::test {
 
 Layout random_layout(Random &random, const OperatorWishes &wishes) {
   Layout layout;
-  const CeedInt num_comp = random.integer(1, wishes.max_comp), num_nodes = random.integer(30, 60);
+  const CeedInt num_comp = random.integer(1, wishes.max_comp), num_nodes = random.integer(20, 32);
   layout.in = static_cast<CeedSize>(num_nodes) * num_comp;
   layout.out = wishes.is_square || wishes.has_point_blocks ? layout.in : layout.in + random.integer(0, 9);
   if (!wishes.has_point_blocks) return layout;
