@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Draws force against displacement of the sinker, runs beside published curves, and prints their differences.
 
-Each run is METHOD:ELEMENTS:FILE, for example mpm:5:sinker-mpm.csv, where FILE is what honeyguide wrote with
--ts_monitor_quantities. The published points were read off printed figures, with an error of about 0.002 m.
+Each run is METHOD:ELEMENTS:FILE or mpm:ELEMENTSxPOINTS:FILE, for example mpm:5:sinker-mpm.csv or mpm:10x64:more.csv, where
+FILE is what honeyguide wrote with -ts_monitor_quantities. The published points were read off printed figures, with an error of about 0.002 m.
 
 The published mean of a finite element run is that over the nodes of the sinker, not over its volume, which is 8 % more.
 So that it can be compared, let the run follow those nodes: honeyguide ... -probe $(plot_sinker.py --print-probes ELEMENTS)
@@ -28,9 +28,10 @@ class Run:
 
     def __init__(self, argument):
         parts = argument.split(":", 2)
-        if len(parts) != 3 or parts[0] not in COLOURS or not parts[1].isdigit():
-            sys.exit(f"'{argument}': expected fem:ELEMENTS:FILE or mpm:ELEMENTS:FILE")
-        self.method, self.elements, self.file = parts[0], int(parts[1]), parts[2]
+        size = re.fullmatch(r"(\d+)(?:x(\d+))?", parts[1]) if len(parts) == 3 else None
+        if not size or parts[0] not in COLOURS:
+            sys.exit(f"'{argument}': expected fem:ELEMENTS:FILE, mpm:ELEMENTS:FILE or mpm:ELEMENTSxPOINTS:FILE")
+        self.method, self.elements, self.points, self.file = parts[0], int(size[1]), size[2], parts[2]
         with open(self.file, newline="") as lines:
             rows = list(csv.DictReader(lines))
         if not rows:
@@ -68,7 +69,8 @@ class Run:
         return None
 
     def label(self):
-        return f"{self.method.upper()} {self.elements}³"
+        """With the points in a cell where the run names them."""
+        return f"{self.method.upper()} {self.elements}³" + (f", {self.points} points" if self.points else "")
 
 
 def probes(elements):
@@ -144,17 +146,19 @@ def draw(runs, published, points, output):
     if points:
         draw_points(axes[0], points)
     for axis, (curve, (name, _)) in zip(axes[-len(CURVES):], CURVES.items()):
+        shown = set()
         for run in runs:
             colour = COLOURS[run.method]
             giga = [force / 1e9 for force in run.force]
             axis.plot([0, *run.down[curve]], [0, *giga], LINES.get(run.elements, "-."), color=colour, label=run.label())
             theirs = published.get((curve, run.method, run.elements), [])
-            if theirs:
+            if theirs and (run.method, run.elements) not in shown:
+                shown.add((run.method, run.elements))
                 # The load grows in equal steps, so the force of a step follows from the first one.
                 unit = giga[0] / run.load_step[0]
                 axis.plot([down for _, down in theirs], [step * unit for step, _ in theirs], linestyle="none",
                           marker=MARKERS.get(run.elements, "D"), markersize=4, markerfacecolor="none", color=colour,
-                          label=f"published {run.label()}")
+                          label=f"published {run.method.upper()} {run.elements}³")
         axis.set(title="Force on the sinker", xlabel=f"downward displacement, {name} [m]", ylabel="force [GN]")
         axis.legend(frameon=False, fontsize=8)
     figure.savefig(output, dpi=110)
