@@ -23,26 +23,6 @@ void require_mem_type(const Ceed_private &ceed, CeedMemType mem_type, const char
   });
 }
 
-namespace {
-
-/// A list of C strings for the caller of the Get functions below; freed by the Restore functions.
-const char **string_list(const std::vector<std::string> &strings) {
-  auto **list = static_cast<const char **>(std::calloc(strings.size() + 1, sizeof(const char *)));
-  if (list == nullptr) throw std::bad_alloc();
-  for (std::size_t i = 0; i < strings.size(); i++) list[i] = strings[i].c_str();
-  return list;
-}
-
-int restore_list(const char ***list) {
-  if (list != nullptr) {
-    std::free(static_cast<void *>(*list));
-    *list = nullptr;
-  }
-  return CEED_ERROR_SUCCESS;
-}
-
-}  // namespace
-
 }  // namespace hg
 
 Ceed_private::~Ceed_private() {
@@ -118,34 +98,6 @@ int CeedIsDeterministic(Ceed ceed, bool *is_deterministic) {
 int CeedSetDeterministic(Ceed ceed, bool is_deterministic) {
   return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").is_deterministic = is_deterministic; });
 }
-
-int CeedAddJitSourceRoot(Ceed ceed, const char *jit_source_root) {
-  return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").jit_source_roots.emplace_back(jit_source_root); });
-}
-
-int CeedAddJitDefine(Ceed ceed, const char *jit_define) {
-  return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").jit_defines.emplace_back(jit_define); });
-}
-
-int CeedGetJitSourceRoots(Ceed ceed, CeedInt *num_source_roots, const char ***jit_source_roots) {
-  return hg::guard(ceed, [&] {
-    const auto &roots = hg::deref(ceed, "Ceed").jit_source_roots;
-    *jit_source_roots = hg::string_list(roots);
-    *num_source_roots = static_cast<CeedInt>(roots.size());
-  });
-}
-
-int CeedRestoreJitSourceRoots(Ceed, const char ***jit_source_roots) { return hg::restore_list(jit_source_roots); }
-
-int CeedGetJitDefines(Ceed ceed, CeedInt *num_defines, const char ***jit_defines) {
-  return hg::guard(ceed, [&] {
-    const auto &defines = hg::deref(ceed, "Ceed").jit_defines;
-    *jit_defines = hg::string_list(defines);
-    *num_defines = static_cast<CeedInt>(defines.size());
-  });
-}
-
-int CeedRestoreJitDefines(Ceed, const char ***jit_defines) { return hg::restore_list(jit_defines); }
 
 int CeedSetNumViewTabs(Ceed ceed, CeedInt num_tabs) {
   return CeedObjectSetNumViewTabs(reinterpret_cast<CeedObject>(ceed), num_tabs);

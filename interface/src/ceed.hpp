@@ -36,6 +36,7 @@ struct Ceed_private final : CeedObject_private {
   std::string error_message;  ///< kept by CeedErrorStore
   std::vector<std::string> jit_source_roots;
   std::vector<std::string> jit_defines;
+  std::vector<std::string> rust_source_roots;
   std::mutex work_mutex;  ///< of work_vectors
   std::vector<hg::WorkVector> work_vectors;
 };

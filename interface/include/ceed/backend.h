@@ -43,6 +43,8 @@ CEED_EXTERN int CeedSetDeterministic(Ceed ceed, bool is_deterministic);
 /// Directories given by CeedAddJitSourceRoot(); the caller frees the list, not its strings, with Restore.
 CEED_EXTERN int CeedGetJitSourceRoots(Ceed ceed, CeedInt *num_source_roots, const char ***jit_source_roots);
 CEED_EXTERN int CeedRestoreJitSourceRoots(Ceed ceed, const char ***jit_source_roots);
+CEED_EXTERN int CeedGetRustSourceRoots(Ceed ceed, CeedInt *num_source_roots, const char ***rust_source_roots);
+CEED_EXTERN int CeedRestoreRustSourceRoots(Ceed ceed, const char ***rust_source_roots);
 CEED_EXTERN int CeedGetJitDefines(Ceed ceed, CeedInt *num_defines, const char ***jit_defines);
 CEED_EXTERN int CeedRestoreJitDefines(Ceed ceed, const char ***jit_defines);
 /// A vector of `len` entries or more for scratch work, contents undefined: one that was given back, or a new one. The

@@ -91,6 +91,8 @@ CEED_EXTERN int CeedIsDeterministic(Ceed ceed, bool *is_deterministic);
 CEED_EXTERN int CeedAddJitSourceRoot(Ceed ceed, const char *jit_source_root);
 /// Definition ("NAME" or "NAME=VALUE") for run-time compiled code.
 CEED_EXTERN int CeedAddJitDefine(Ceed ceed, const char *jit_define);
+/// Folder of a Rust package whose QFunctions are compiled when the program runs. Kept for backends that do so.
+CEED_EXTERN int CeedAddRustSourceRoot(Ceed ceed, const char *rust_source_root);
 CEED_EXTERN int CeedSetNumViewTabs(Ceed ceed, CeedInt num_tabs);
 CEED_EXTERN int CeedGetNumViewTabs(Ceed ceed, CeedInt *num_tabs);
 CEED_EXTERN int CeedView(Ceed ceed, FILE *stream);
