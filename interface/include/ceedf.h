@@ -1,0 +1,2 @@
+! For programs that include the older name.
+      include 'ceed/fortran.h'
