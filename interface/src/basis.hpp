@@ -2,6 +2,7 @@
 /// A space on the reference element and a quadrature rule, as matrices on the host.
 #pragma once
 
+#include <mutex>
 #include <vector>
 
 #include "ceed.hpp"
@@ -23,6 +24,7 @@ struct CeedBasis_private final : CeedObject_private {
   /// Values, and the one derivative that the space has (gradient, divergence or curl): q_comp by Q by P, row-major.
   /// Made on demand for tensor bases, see matrix(). The derivative is empty where the basis was made without one.
   std::vector<CeedScalar> interp, derivative;
+  std::mutex matrix_mutex;  ///< of interp and derivative: operators in several threads may share the basis
   /// The 1D basis functions as polynomials: entry (k, j) is the coefficient of the Chebyshev polynomial T_k in the
   /// function of node j; row-major, P_1d columns. Lagrange bases have P_1d rows; bases from the user's matrices have
   /// Q_1d rows, the polynomial through the values at the quadrature points. Empty where those do not determine one

@@ -139,6 +139,7 @@ void require_evaluation(const CeedBasis_private &basis, CeedEvalMode mode) {
 const std::vector<CeedScalar> &matrix(CeedBasis_private &basis, CeedEvalMode mode) {
   require_evaluation(basis, mode);
   const bool is_interp = mode == CEED_EVAL_INTERP;
+  const std::lock_guard<std::mutex> lock(basis.matrix_mutex);
   auto &full = is_interp ? basis.interp : basis.derivative;
   if (!full.empty()) return full;
   const std::size_t size = static_cast<std::size_t>(basis.Q) * basis.P;

@@ -109,7 +109,7 @@ std::vector<Coefficients> mean_coefficients(CeedOperator_private &op, const Ceed
 }
 
 /// Eigenvalues below `null` of the largest are zero up to rounding, as that of the constants without mass; they count
-/// as `moved` of the largest: small beside the others, and large enough to keep half of the digits.
+/// as `moved` of the largest: small beside the others, and rounding grows by no more than 1 / moved.
 constexpr CeedScalar null = 1e-12, moved = 1e-5;
 
 /// 1 / (c_0 + Σ_d c_(1+d) λ_(n_d)) for the nodes n of an element.

@@ -235,6 +235,19 @@ TEST_P(FdmTest, TakesZeroAndNegativeElements) {
   }
 }
 
+/// A process without elements has an inverse, too: zero.
+TEST_P(FdmTest, TakesNoElements) {
+  Random random(7);
+  Problem p = boxes(random, 2, 1);
+  p.num_elem = 0;
+  p.num_nodes = 5;
+  p.offsets.clear();
+  p.coefficient.clear();
+  const Pair pair(ceed, p);
+  const Values u = random.reals(p.size());
+  EXPECT_EQ(act(pair.inverse, u), Values(u.size(), 0));
+}
+
 TEST_P(FdmTest, RefusesOtherOperators) {
   Random random(6);
   const Problem p = boxes(random, 2, 1);

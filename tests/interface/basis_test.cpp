@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "../../backends/ref/basis.hpp"
 #include "conformance/basis_cases.hpp"
@@ -74,6 +76,24 @@ TEST_F(BasisInterface, TellsItsSizes) {
     EXPECT_EQ(owner, ceed.get());
     ok(CeedDestroy(&owner));
     EXPECT_EQ(CeedBasisReturnCeed(basis), ceed.get());
+  }
+}
+
+// Operators of several threads may share a basis: its full matrices are made once, whoever asks first.
+TEST_F(BasisInterface, ServesSeveralThreads) {
+  const Basis basis = make_basis(ceed, {3, 1, 4, 5, CEED_GAUSS});
+  const CeedScalar *interp[4] = {}, *grad[4] = {};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; t++) {
+    threads.emplace_back([&, t] {
+      ok(CeedBasisGetGrad(basis, &grad[t]));
+      ok(CeedBasisGetInterp(basis, &interp[t]));
+    });
+  }
+  for (std::thread &thread : threads) thread.join();
+  for (int t = 1; t < 4; t++) {
+    EXPECT_EQ(interp[t], interp[0]);
+    EXPECT_EQ(grad[t], grad[0]);
   }
 }
 
