@@ -110,13 +110,14 @@ void make(Handles<T> &handles, int *handle, int *err, F &&f, const char *functio
       function);
 }
 
-/// Runs a stub that destroys an object; its number becomes ceed_null.
+/// Runs a stub that destroys an object; its number becomes ceed_null. As in C, destroying none is no error.
 template <typename T>
 void destroy(Handles<T> &handles, int *handle, int *err, int (*destroy_object)(T *),
              const char *function = __builtin_FUNCTION()) {
   run(
       err,
       [&] {
+        if (*handle == null) return static_cast<int>(CEED_ERROR_SUCCESS);
         T object = handles.at(*handle);
         const int code = destroy_object(&object);
         if (code == CEED_ERROR_SUCCESS) {

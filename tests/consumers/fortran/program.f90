@@ -121,6 +121,8 @@
       call done(err,'ceedvectorview')
       call ceedvectordestroy(x,err)
       if (x/=ceed_null) stop 6
+      call ceedvectordestroy(x,err)
+      call done(err,'destroying what is destroyed')
       call ceedvectorsetvalue(999,1.d0,err)
       if (err==0) stop 7
 
