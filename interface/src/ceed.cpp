@@ -91,6 +91,17 @@ int CeedGetResource(Ceed ceed, const char **resource) {
   return hg::guard(ceed, [&] { *resource = hg::deref(ceed, "Ceed").resource.c_str(); });
 }
 
+int CeedGetResourceRoot(Ceed ceed, const char *resource, const char *delineator, char **resource_root) {
+  return hg::guard(ceed, [&] {
+    hg::require(resource != nullptr && delineator != nullptr, CEED_ERROR_MINOR,
+                "CeedGetResourceRoot takes a resource and a delineator; one of them is NULL");
+    const std::string_view whole = resource;
+    const std::string root(whole.substr(0, whole.find(delineator)));
+    *resource_root = ::strdup(root.c_str());
+    if (*resource_root == nullptr) throw std::bad_alloc();
+  });
+}
+
 int CeedIsDeterministic(Ceed ceed, bool *is_deterministic) {
   return hg::guard(ceed, [&] { *is_deterministic = hg::deref(ceed, "Ceed").is_deterministic; });
 }

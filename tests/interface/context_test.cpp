@@ -230,4 +230,20 @@ TEST_F(ContextTest, PrintsItsFields) {
   EXPECT_EQ(printed(print).substr(0, 22), "  CeedQFunctionContext");
 }
 
+/// Only QFunctions in Fortran have a context around the user's.
+TEST_F(ContextTest, OfAQFunctionInCIsItsInnerOne) {
+  double number = 4, *data = nullptr;
+  Context own, found;
+  QFunction qf;
+  ok(CeedQFunctionContextCreate(ceed, own.out()));
+  ok(CeedQFunctionContextSetData(own, CEED_MEM_HOST, CEED_COPY_VALUES, sizeof number, &number));
+  ok(CeedQFunctionCreateIdentity(ceed, 1, CEED_EVAL_NONE, CEED_EVAL_NONE, qf.out()));
+  ok(CeedQFunctionSetContext(qf, own));
+  ok(CeedQFunctionGetInnerContext(qf, found.out()));
+  EXPECT_EQ(found.get(), own.get());
+  ok(CeedQFunctionGetInnerContextData(qf, CEED_MEM_HOST, &data));
+  EXPECT_EQ(*data, 4);
+  ok(CeedQFunctionRestoreInnerContextData(qf, &data));
+}
+
 }  // namespace

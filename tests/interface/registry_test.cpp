@@ -204,4 +204,19 @@ TEST(Registry, SaysItsVersion) {
   EXPECT_STRNE(configuration, "");
 }
 
+TEST(Registry, ResourcesHaveRoots) {
+  const CeedHandle ceed(open(reference_resource));
+  const auto root = [&](const char *resource, const char *delineator) {
+    char *text = nullptr;
+    ok(CeedGetResourceRoot(ceed, resource, delineator, &text));
+    const std::string result = text;
+    std::free(text);
+    return result;
+  };
+  EXPECT_EQ(root("/gpu/cuda:device_id=1", ":"), "/gpu/cuda");
+  EXPECT_EQ(root("/gpu/cuda:device_id=1", ":device_id="), "/gpu/cuda");
+  EXPECT_EQ(root("/cpu/self", ":"), "/cpu/self");
+  expect_error(CeedGetResourceRoot(ceed, nullptr, ":", nullptr), CEED_ERROR_MINOR, {"NULL"});
+}
+
 }  // namespace

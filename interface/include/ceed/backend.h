@@ -35,6 +35,8 @@
 /// @{
 /// Whether CEED_DEBUG is set in the environment.
 CEED_EXTERN int CeedIsDebug(Ceed ceed, bool *is_debug);
+/// What stands before the first `delineator` in a resource, or all of it; the caller frees it with free().
+CEED_EXTERN int CeedGetResourceRoot(Ceed ceed, const char *resource, const char *delineator, char **resource_root);
 /// Pointer of the backend, set by its init.
 CEED_EXTERN int CeedGetData(Ceed ceed, void *data);
 CEED_EXTERN int CeedSetData(Ceed ceed, void *data);
@@ -212,6 +214,10 @@ CEED_EXTERN int CeedQFunctionGetContext(CeedQFunction qf, CeedQFunctionContext *
 /// Data of the context (*data is NULL where there is none) with the access that the function was promised.
 CEED_EXTERN int CeedQFunctionGetContextData(CeedQFunction qf, CeedMemType mem_type, void *data);
 CEED_EXTERN int CeedQFunctionRestoreContextData(CeedQFunction qf, void *data);
+/// The same for the context that the user set: where a QFunction calls a subroutine in Fortran, its own context says which.
+CEED_EXTERN int CeedQFunctionGetInnerContext(CeedQFunction qf, CeedQFunctionContext *ctx);
+CEED_EXTERN int CeedQFunctionGetInnerContextData(CeedQFunction qf, CeedMemType mem_type, void *data);
+CEED_EXTERN int CeedQFunctionRestoreInnerContextData(CeedQFunction qf, void *data);
 CEED_EXTERN int CeedQFunctionIsIdentity(CeedQFunction qf, bool *is_identity);
 CEED_EXTERN int CeedQFunctionIsContextWritable(CeedQFunction qf, bool *is_writable);
 CEED_EXTERN int CeedQFunctionGetData(CeedQFunction qf, void *data);

@@ -125,6 +125,47 @@ int add_field(const int *qf, const std::string &name, CeedInt size, CeedEvalMode
 
 using namespace hg::fortran;
 
+int CeedQFunctionGetInnerContext(CeedQFunction qf, CeedQFunctionContext *ctx) {
+  CeedQFunctionUser function = nullptr;
+  CeedCall(CeedQFunctionGetUserFunction(qf, &function));
+  if (function != call_subroutine) return CeedQFunctionGetContext(qf, ctx);
+  *ctx = nullptr;
+  return with_subroutine(qf, [&](SubroutineContext &context) -> int {
+    return context.inner != nullptr ? CeedQFunctionContextReferenceCopy(context.inner, ctx) : CEED_ERROR_SUCCESS;
+  });
+}
+
+namespace {
+
+/// Calls f(inner context of a subroutine, maybe NULL), or `other` where there is no subroutine.
+template <typename F, typename Other>
+int with_inner_context(CeedQFunction qf, F &&f, Other &&other) {
+  CeedQFunctionUser function = nullptr;
+  CeedCall(CeedQFunctionGetUserFunction(qf, &function));
+  if (function != call_subroutine) return other();
+  CeedQFunctionContext inner = nullptr;
+  CeedCall(CeedQFunctionGetInnerContext(qf, &inner));
+  if (inner == nullptr) return CEED_ERROR_SUCCESS;
+  const int code = f(inner);
+  CeedQFunctionContextDestroy(&inner);
+  return code;
+}
+
+}  // namespace
+
+int CeedQFunctionGetInnerContextData(CeedQFunction qf, CeedMemType mem_type, void *data) {
+  *static_cast<void **>(data) = nullptr;
+  return with_inner_context(
+      qf, [&](CeedQFunctionContext inner) { return CeedQFunctionContextGetData(inner, mem_type, data); },
+      [&] { return CeedQFunctionGetContextData(qf, mem_type, data); });
+}
+
+int CeedQFunctionRestoreInnerContextData(CeedQFunction qf, void *data) {
+  return with_inner_context(
+      qf, [&](CeedQFunctionContext inner) { return CeedQFunctionContextRestoreData(inner, data); },
+      [&] { return CeedQFunctionRestoreContextData(qf, data); });
+}
+
 // QFunctions
 
 CEED_EXTERN void ceedqfunctioncreateinterior_(const int *ceed, const int *vec_length, Subroutine f, const char *source,
