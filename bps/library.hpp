@@ -13,7 +13,7 @@ std::string library_version();
 /// Every resource in the library's registry, in its order.
 std::vector<std::string> registered_resources();
 
-/// The resources among registered_resources() that initialise on this machine.
+/// The resources among registered_resources() that initialise on this machine and are there for work: no memcheck.
 std::vector<std::string> usable_resources();
 
 }  // namespace hg::bps
