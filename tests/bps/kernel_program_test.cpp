@@ -64,8 +64,9 @@ TEST(Kernel, EveryBackendOfTheLibraryRuns) {
   ASSERT_GE(records.size(), 6u);
   EXPECT_EQ(records.size() % 6, 0u);
   EXPECT_TRUE(std::ranges::any_of(records, [](const auto &r) { return r["ceed"] == "/cpu/self/ref/serial"; }));
-  EXPECT_TRUE(std::ranges::none_of(
-      records, [](const auto &r) { return r["ceed"].template get<std::string>().find("memcheck") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::none_of(records, [](const auto &r) {
+    return r["ceed"].template get<std::string>().find("memcheck") != std::string::npos;
+  }));
   for (const auto &record : records) expect_record(record);
 }
 
