@@ -16,7 +16,7 @@ std::uint64_t hash(std::uint64_t seed, const void *data, std::size_t size) {
 
 std::uint64_t hash_of(const CeedElementMap &map) {
   std::uint64_t value = 0xcbf29ce484222325u;
-  const CeedSize padded = static_cast<CeedSize>((map.num_elem + map.block_size - 1) / map.block_size) * map.block_size;
+  const CeedSize padded = (static_cast<CeedSize>(map.num_elem) + map.block_size - 1) / map.block_size * map.block_size;
   if (map.offsets != nullptr) {
     const bool is_points = map.type == CEED_RESTRICTION_POINTS;
     const CeedSize count = is_points ? map.offsets[map.num_elem] : padded * map.elem_size;
