@@ -12,6 +12,15 @@
 
 namespace hg::test {
 
+/// How many of `all` random cases to run: a quarter where sanitizers make each ten times as long.
+constexpr int num_cases(int all) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return (all + 3) / 4;
+#else
+  return all;
+#endif
+}
+
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
