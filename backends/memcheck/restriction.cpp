@@ -23,7 +23,8 @@ std::uint64_t hash_of(const CeedElementMap &map) {
     value = hash(value, map.offsets, static_cast<std::size_t>(std::max<CeedSize>(count, 0)) * sizeof *map.offsets);
   }
   if (map.bands != nullptr) {
-    value = hash(value, map.bands, static_cast<std::size_t>(padded * map.elem_size * map.num_bands) * sizeof *map.bands);
+    value =
+        hash(value, map.bands, static_cast<std::size_t>(padded * map.elem_size * map.num_bands) * sizeof *map.bands);
   }
   return value;
 }
