@@ -8,25 +8,6 @@
 
 namespace hg {
 
-namespace {
-
-/// A field that reads entry `entry[cell]` of a table at every point of the cell.
-Integration::AtPoints table_field(Ceed ceed, std::span<const double> table, CeedInt num_comp,
-                                  std::span<const int> entry, CeedInt points_per_cell) {
-  Integration::AtPoints field;
-  field.values = make_vector(ceed, table);
-  const auto num_cells = static_cast<CeedInt>(entry.size());
-  const auto length = static_cast<CeedSize>(table.size());
-  std::vector<CeedInt> offsets;
-  offsets.reserve(entry.size() * points_per_cell);
-  for (const int e : entry) offsets.insert(offsets.end(), points_per_cell, e * num_comp);
-  ceed_check(CeedElemRestrictionCreate(ceed, num_cells, points_per_cell, num_comp, 1, length, CEED_MEM_HOST,
-                                       CEED_COPY_VALUES, offsets.data(), field.rstr.put()));
-  return field;
-}
-
-}  // namespace
-
 FemOperators::FemOperators(const Mesh &mesh, const RegionMap &map, std::span<const RegionMaterial> regions,
                            CeedInt q_extra)
     : SolidOperators(mesh, regions) {
@@ -66,10 +47,9 @@ FemOperators::FemOperators(const Mesh &mesh, const RegionMap &map, std::span<con
     part.region = [region_of, per_cell](CeedSize point) { return (*region_of)[point / per_cell]; };
     add_geometry(part);
 
-    constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    part.at_points[field_names::F] = table_field(ceed_, identity, 9, std::vector<int>(cells.size(), 0), per_cell);
-    part.at_points[field_names::moduli] = table_field(ceed_, moduli, 2, entry, per_cell);
-    part.at_points[field_names::rho] = table_field(ceed_, rho, 1, entry, per_cell);
+    part.at_points[field_names::F] = undeformed(ceed_, cells.size(), per_cell);
+    part.at_points[field_names::moduli] = cell_field(ceed_, moduli, 2, entry, per_cell);
+    part.at_points[field_names::rho] = cell_field(ceed_, rho, 1, entry, per_cell);
     cells_.push_back(std::move(cells));
     parts.push_back(std::move(part));
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 #include "operators/qfunction_specs.hpp"
 #include "operators/quadrature.hpp"
@@ -71,21 +70,20 @@ std::optional<Integration> MpmOperators::make_void(const PointEpoch &epoch, cons
   if (void_stiffness_ == 0. || num_cells == 0) return {};
 
   const auto q_1d = static_cast<CeedInt>(mesh_->order + 1);
-  const auto per_cell = static_cast<std::size_t>(q_1d * q_1d * q_1d);
+  const CeedInt per_cell = q_1d * q_1d * q_1d;
   if (cell_volumes_.empty()) {
-    std::vector<CeedInt> every(num_cells);
-    std::iota(every.begin(), every.end(), 0);
-    Integration mesh_part = quadrature_part(*mesh_, every, q_1d);
+    Integration mesh_part = quadrature_part(*mesh_, q_1d);
     add_geometry(mesh_part);
     const std::vector<double> q_data = to_host(mesh_part.at_points.at(field_names::q_data).values);
     cell_volumes_.assign(num_cells, 0.);
-    for (std::size_t q = 0; q < num_cells * per_cell; q++) cell_volumes_[q / per_cell] += q_data[10 * q];
+    for (CeedSize q = 0; q < mesh_part.num_points; q++) cell_volumes_[q / per_cell] += q_data[10 * q];
   }
   const ElasticParameters &softest = std::ranges::min_element(regions_, {}, [](const RegionMaterial &region) {
                                        return region.parameters.E;
                                      })->parameters;
   const PointField<double> V(swarm, field::V);
   std::vector<CeedInt> cells;
+  std::vector<int> entry;
   std::vector<double> moduli;
   for (std::size_t c = 0; c < num_cells; c++) {
     double filled = 0.;
@@ -93,19 +91,16 @@ std::optional<Integration> MpmOperators::make_void(const PointEpoch &epoch, cons
     const double factor = void_stiffness_ * (1. - 2. * filled / cell_volumes_[c]);
     if (factor <= 0.) continue;
     active_cells_[c] = 1;
+    entry.push_back(static_cast<int>(cells.size()));
     cells.push_back(static_cast<CeedInt>(c));
-    for (std::size_t q = 0; q < per_cell; q++) {
-      moduli.insert(moduli.end(), {factor * softest.bulk_modulus(), factor * softest.shear_modulus()});
-    }
+    moduli.insert(moduli.end(), {factor * softest.bulk_modulus(), factor * softest.shear_modulus()});
   }
   if (cells.empty()) return {};
   Integration part = quadrature_part(*mesh_, cells, q_1d);
   part.material = &find_material("elasticity-linear");
   add_geometry(part);
-  std::vector<double> identity(9 * cells.size() * per_cell, 0.);
-  for (std::size_t i = 0; i < identity.size(); i++) identity[i] = i % 9 % 4 == 0;
-  part.at_points[field_names::F] = {part.restriction(9), make_vector(ceed_, identity)};
-  part.at_points[field_names::moduli] = {part.restriction(2), make_vector(ceed_, moduli)};
+  part.at_points[field_names::F] = undeformed(ceed_, cells.size(), per_cell);
+  part.at_points[field_names::moduli] = cell_field(ceed_, moduli, 2, entry, per_cell);
   return part;
 }
 

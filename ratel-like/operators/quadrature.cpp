@@ -1,5 +1,6 @@
 #include "operators/quadrature.hpp"
 
+#include <numeric>
 #include <vector>
 
 #include "options/error.hpp"
@@ -58,6 +59,31 @@ Integration quadrature_part(const Mesh &mesh, std::span<const CeedInt> cells, Ce
   nodes.basis = mesh.basis(1, 3, q_1d, CEED_GAUSS);
   nodes.values = make_vector(mesh.ceed, corners);
   return part;
+}
+
+Integration quadrature_part(const Mesh &mesh, CeedInt q_1d) {
+  std::vector<CeedInt> cells(mesh.num_cells);
+  std::iota(cells.begin(), cells.end(), 0);
+  return quadrature_part(mesh, cells, q_1d);
+}
+
+Integration::AtPoints cell_field(Ceed ceed, std::span<const double> table, CeedInt num_comp, std::span<const int> entry,
+                                 CeedInt points_per_cell) {
+  Integration::AtPoints field;
+  field.values = make_vector(ceed, table);
+  const auto num_cells = static_cast<CeedInt>(entry.size());
+  const auto length = static_cast<CeedSize>(table.size());
+  std::vector<CeedInt> offsets;
+  offsets.reserve(entry.size() * points_per_cell);
+  for (const int e : entry) offsets.insert(offsets.end(), points_per_cell, e * num_comp);
+  ceed_check(CeedElemRestrictionCreate(ceed, num_cells, points_per_cell, num_comp, 1, length, CEED_MEM_HOST,
+                                       CEED_COPY_VALUES, offsets.data(), field.rstr.put()));
+  return field;
+}
+
+Integration::AtPoints undeformed(Ceed ceed, std::size_t num_cells, CeedInt points_per_cell) {
+  constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  return cell_field(ceed, identity, 9, std::vector<int>(num_cells, 0), points_per_cell);
 }
 
 }  // namespace hg
