@@ -58,6 +58,19 @@ inline Basis make_basis(Ceed ceed, const BasisCase &c) {
   return basis;
 }
 
+/// The same basis by its full matrices.
+inline Basis without_tensor(Ceed ceed, CeedBasis tensor, const BasisCase &c) {
+  CeedElemTopology topology;
+  const CeedScalar *interp, *grad;
+  ok(CeedBasisGetTopology(tensor, &topology));
+  ok(CeedBasisGetInterp(tensor, &interp));
+  ok(CeedBasisGetGrad(tensor, &grad));
+  Basis full;
+  ok(CeedBasisCreateH1(ceed, topology, c.num_comp, c.num_nodes(), c.num_qpts(), interp, grad, nullptr, nullptr,
+                       full.out()));
+  return full;
+}
+
 /// Quadrature points in one direction.
 inline Values points_1d(CeedInt Q, CeedQuadMode mode) {
   Values x(static_cast<std::size_t>(Q)), w(x.size());

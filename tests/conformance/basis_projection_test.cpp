@@ -17,19 +17,6 @@ Basis project(CeedBasis from, CeedBasis to) {
   return projection;
 }
 
-/// The same basis by its full matrices.
-Basis without_tensor(Ceed ceed, CeedBasis tensor, const BasisCase &c) {
-  CeedElemTopology topology;
-  const CeedScalar *interp, *grad;
-  ok(CeedBasisGetTopology(tensor, &topology));
-  ok(CeedBasisGetInterp(tensor, &interp));
-  ok(CeedBasisGetGrad(tensor, &grad));
-  Basis full;
-  ok(CeedBasisCreateH1(ceed, topology, c.num_comp, c.num_nodes(), c.num_qpts(), interp, grad, nullptr, nullptr,
-                       full.out()));
-  return full;
-}
-
 /// Both ways of having a basis.
 struct Pair {
   Basis tensor, full;

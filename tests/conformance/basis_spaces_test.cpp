@@ -194,14 +194,7 @@ TEST_P(BasisSpaces, FullMatricesOfATensorProductAreTheSameBasis) {
   for (CeedInt dim = 1; dim <= 3; dim++) {
     const BasisCase c = {dim, 3, 3, 4, CEED_GAUSS};
     const Basis tensor = make_basis(ceed, c);
-    CeedElemTopology topology;
-    const CeedScalar *interp, *grad;
-    ok(CeedBasisGetTopology(tensor, &topology));
-    ok(CeedBasisGetInterp(tensor, &interp));
-    ok(CeedBasisGetGrad(tensor, &grad));
-    Basis full;
-    ok(CeedBasisCreateH1(ceed, topology, c.num_comp, c.num_nodes(), c.num_qpts(), interp, grad, nullptr, nullptr,
-                         full.out()));
+    const Basis full = without_tensor(ceed, tensor, c);
     const Values u = random.reals(2 * static_cast<CeedSize>(c.num_nodes()) * c.num_comp);
     for (const CeedEvalMode mode : {CEED_EVAL_INTERP, CEED_EVAL_GRAD}) {
       const CeedSize length = 2 * static_cast<CeedSize>(c.num_qpts()) * c.num_comp * q_comp(c, mode);

@@ -6,23 +6,6 @@
 
 namespace hg::test {
 
-CeedEvalMode Space::derivative_mode() const {
-  return kind == CEED_FE_SPACE_H1 ? CEED_EVAL_GRAD : kind == CEED_FE_SPACE_HDIV ? CEED_EVAL_DIV : CEED_EVAL_CURL;
-}
-
-CeedInt Space::q_comp(CeedInt dim, CeedEvalMode mode) const {
-  switch (mode) {
-    case CEED_EVAL_INTERP:
-      return kind == CEED_FE_SPACE_H1 ? 1 : dim;
-    case CEED_EVAL_GRAD:
-      return dim;
-    case CEED_EVAL_CURL:
-      return dim == 3 ? 3 : 1;
-    default:
-      return 1;
-  }
-}
-
 CeedInt Case::size(const Field &field) const {
   if (field.mode == CEED_EVAL_WEIGHT) return 1;
   return spaces[field.space].num_comp * spaces[field.space].q_comp(dim, field.mode);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "conformance/qfunctions/mix_context.h"
+#include "tabulated.hpp"
 #include "support/values.hpp"
 
 namespace hg::test {
@@ -33,9 +34,9 @@ struct Space {
 
   bool is_tabulated() const { return !interp.empty(); }
   bool has_basis() const { return P_1d > 0 || is_tabulated(); }
-  CeedEvalMode derivative_mode() const;
+  CeedEvalMode derivative_mode() const { return hg::test::derivative_mode(kind); }
   /// Values at a point for one component.
-  CeedInt q_comp(CeedInt dim, CeedEvalMode mode) const;
+  CeedInt q_comp(CeedInt dim, CeedEvalMode mode) const { return hg::test::q_comp(kind, dim, mode); }
 };
 
 /// One input or output.

@@ -298,11 +298,11 @@ std::vector<PolynomialField> box_vectors(CeedInt dim, bool is_rt) {
 
 }  // namespace
 
-CeedEvalMode Tabulated::derivative_mode() const {
+CeedEvalMode derivative_mode(CeedFESpace space) {
   return space == CEED_FE_SPACE_H1 ? CEED_EVAL_GRAD : space == CEED_FE_SPACE_HDIV ? CEED_EVAL_DIV : CEED_EVAL_CURL;
 }
 
-CeedInt Tabulated::q_comp(CeedEvalMode mode) const {
+CeedInt q_comp(CeedFESpace space, CeedInt dim, CeedEvalMode mode) {
   switch (mode) {
     case CEED_EVAL_INTERP:
       return space == CEED_FE_SPACE_H1 ? 1 : dim;

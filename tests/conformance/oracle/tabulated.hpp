@@ -15,6 +15,11 @@
 
 namespace hg::test {
 
+/// The one derivative that a space has.
+CeedEvalMode derivative_mode(CeedFESpace space);
+/// Values at a point for one component: of a space in dim dimensions, for that mode.
+CeedInt q_comp(CeedFESpace space, CeedInt dim, CeedEvalMode mode);
+
 /// A polynomial in up to three variables.
 class Polynomial3 {
  public:
@@ -47,8 +52,8 @@ struct Tabulated {
   Values interp, derivative;                                   ///< q_comp by Q by P
   std::function<Values(const PolynomialField &)> interpolate;  ///< degrees of freedom of a field
 
-  CeedEvalMode derivative_mode() const;
-  CeedInt q_comp(CeedEvalMode mode) const;
+  CeedEvalMode derivative_mode() const { return hg::test::derivative_mode(space); }
+  CeedInt q_comp(CeedEvalMode mode) const { return hg::test::q_comp(space, dim, mode); }
   const Values &matrix(CeedEvalMode mode) const { return mode == CEED_EVAL_INTERP ? interp : derivative; }
   /// Values (dim or one) or derivative of a field at a point, q_comp entries.
   Values evaluate(const PolynomialField &field, CeedEvalMode mode, const CeedScalar *x) const;
