@@ -8,7 +8,7 @@ hg_mechanics_test(monitors_test RANKS 1 2 3)
 
 # hg_program_test(name [LONG] [TIMEOUT seconds]): tests that run the program; no MPI in the test itself.
 function(hg_program_test name)
-  hg_add_test(${name} LABEL mechanics WHOLE PROCESSORS 2 SOURCES ${name}.cpp LIBS GTest::gtest_main
+  hg_add_test(${name} LABEL mechanics WHOLE PROCESSORS 2 SOURCES ${name}.cpp LIBS GTest::gtest_main hg_test_support
               ENVIRONMENT ${hg_mpi_environment} ${ARGN})
   add_dependencies(${name} honeyguide)
   target_compile_definitions(${name} PRIVATE HONEYGUIDE_PROGRAM="$<TARGET_FILE:honeyguide>"

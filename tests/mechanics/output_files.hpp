@@ -14,10 +14,9 @@ namespace hg::test {
 class Folder {
  public:
   Folder() {
-    char name[] = "/tmp/honeyguide-test-XXXXXX";
-    if (my_rank() == 0 && !mkdtemp(name)) fail("no temporary folder");
-    MPI_Bcast(name, sizeof name, MPI_CHAR, 0, PETSC_COMM_WORLD);
-    path_ = name;
+    path_ = (std::filesystem::temp_directory_path() / "honeyguide-test-XXXXXX").string();
+    if (my_rank() == 0 && !mkdtemp(path_.data())) fail("no temporary folder");
+    MPI_Bcast(path_.data(), static_cast<int>(path_.size()), MPI_CHAR, 0, PETSC_COMM_WORLD);
   }
   ~Folder() {
     MPI_Barrier(PETSC_COMM_WORLD);

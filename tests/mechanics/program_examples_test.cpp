@@ -17,7 +17,7 @@ std::vector<std::string> example_files() {
 class Examples : public testing::TestWithParam<std::string> {};
 
 TEST_P(Examples, Run) {
-  TemporaryFolder folder;
+  WorkingFolder folder;
   const ProgramResult result = honeyguide("-options_file " + GetParam() + " -ts_max_steps 1");
   EXPECT_EQ(result.status, 0) << result.output;
   EXPECT_FALSE(result.mentions("warning")) << result.output;
@@ -38,7 +38,7 @@ TEST(ExampleFiles, AreThere) {
 
 // Tip deflection of a slender cantilever under an end force: F l³ / (3 E I), with I = 1/12, plus 1 % for shear.
 TEST(ExampleFiles, CantileverBendsAsBeamTheorySays) {
-  TemporaryFolder folder;
+  WorkingFolder folder;
   ASSERT_EQ(honeyguide("-options_file " HONEYGUIDE_EXAMPLES "/traction-fem.yml -quiet").status, 0);
   const auto table = read_csv("traction-fem.csv");
   const double beam = 1e6 * 1e3 / (3 * 210e9 / 12);

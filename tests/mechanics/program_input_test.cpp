@@ -23,7 +23,7 @@ TEST(BadInput, MissingOptionsFile) {
 }
 
 TEST(BadInput, OptionsFileThatIsNotYaml) {
-  TemporaryFolder folder;
+  WorkingFolder folder;
   std::ofstream("broken.yml") << "method: [fem\nb: }\n";
   expect_error("-options_file broken.yml", {"YAML"});
 }
@@ -48,7 +48,7 @@ TEST(BadInput, UnknownBackend) {
 }
 
 TEST(BadInput, MeshFileThatIsNotOne) {
-  TemporaryFolder folder;
+  WorkingFolder folder;
   expect_error(soft_cube + "-dm_plex_filename nowhere.msh", {"-dm_plex_filename", "nowhere.msh"});
   std::ofstream("text.msh") << "This is not a mesh.\n";
   expect_error(soft_cube + "-dm_plex_filename text.msh", {"text.msh", "could not be read as a mesh"});

@@ -19,7 +19,7 @@ std::string body(const std::string &method, const std::string &foam) {
 }
 
 TEST(Regions, LinearInNeoHookean) {
-  TemporaryFolder folder;
+  WorkingFolder folder;
   const ProgramResult fem = honeyguide(body("fem", "elasticity-neo-hookean-current"));
   const ProgramResult mpm = honeyguide(body("mpm", "elasticity-mpm-neo-hookean-current"), 2);
   ASSERT_EQ(fem.status, 0) << fem.output;

@@ -1,17 +1,14 @@
 // Running the program honeyguide from tests, and reading what it wrote.
 #pragma once
 
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "support/program.hpp"
 
 namespace hg::test {
 
@@ -26,33 +23,21 @@ struct ProgramResult {
 inline ProgramResult honeyguide(const std::string &arguments, int ranks = 1) {
   std::string command = HONEYGUIDE_PROGRAM " " + arguments + " 2>&1";
   if (ranks > 1) command = HONEYGUIDE_MPIEXEC " -n " + std::to_string(ranks) + " " + command;
-  ProgramResult result;
-  std::FILE *pipe = popen(command.c_str(), "r");
-  if (!pipe) return result;
-  std::array<char, 4096> buffer;
-  while (std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) result.output.append(buffer.data(), n);
-  const int ended = pclose(pipe);
-  result.status = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
-  return result;
+  const Finished finished = run(command);
+  return {finished.code, finished.out};
 }
 
 /// An empty folder for one test, the working folder meanwhile; removed afterwards.
-class TemporaryFolder {
+class WorkingFolder {
  public:
-  TemporaryFolder() : before_(std::filesystem::current_path()) {
-    std::string name = (std::filesystem::temp_directory_path() / "honeyguide-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    std::filesystem::current_path(folder_);
-  }
-  ~TemporaryFolder() {
-    std::filesystem::current_path(before_);
-    std::filesystem::remove_all(folder_);
-  }
-  TemporaryFolder(const TemporaryFolder &) = delete;
-  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
+  WorkingFolder() : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder_.path()); }
+  ~WorkingFolder() { std::filesystem::current_path(before_); }
+  WorkingFolder(const WorkingFolder &) = delete;
+  WorkingFolder &operator=(const WorkingFolder &) = delete;
 
  private:
-  std::filesystem::path before_, folder_;
+  TemporaryFolder folder_;
+  std::filesystem::path before_;
 };
 
 /// Columns of a CSV file by name.

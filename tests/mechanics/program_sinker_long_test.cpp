@@ -18,8 +18,8 @@ std::map<int, double> downward(const std::map<std::string, std::vector<double>> 
   return values;
 }
 
-std::map<std::string, std::vector<double>> run(const std::string &method) {
-  TemporaryFolder folder;
+std::map<std::string, std::vector<double>> run_sinker(const std::string &method) {
+  WorkingFolder folder;
   const ProgramResult result = honeyguide("-options_file " HONEYGUIDE_EXAMPLES "/sinker-" + method +
                                           ".yml -quiet -ts_monitor_quantities table.csv");
   EXPECT_EQ(result.status, 0) << result.output;
@@ -27,13 +27,13 @@ std::map<std::string, std::vector<double>> run(const std::string &method) {
 }
 
 TEST(SinkerAllSteps, FemWithinHalfAPercent) {
-  auto centre = downward(run("fem"), "displacement_probe0_z");
+  auto centre = downward(run_sinker("fem"), "displacement_probe0_z");
   const std::map<int, double> expected{{4, 0.0881}, {8, 0.1707}, {12, 0.2414}, {16, 0.2889}, {20, 0.3201}};
   for (const auto &[step, value] : expected) EXPECT_NEAR(centre[step], value, 0.005 * value) << "step " << step;
 }
 
 TEST(SinkerAllSteps, MpmWithinTheIndependentSolutionsTolerance) {
-  const auto table = run("mpm");
+  const auto table = run_sinker("mpm");
   auto centre = downward(table, "displacement_probe0_z"), mean = downward(table, "mean_displacement_sinker_z");
   const auto tolerance = [](int step) { return step <= 10 ? 0.002 : 0.01; };
   const std::map<int, double> centres{{1, 0.02486},  {2, 0.05045},  {4, 0.10349},  {6, 0.15392},

@@ -12,7 +12,7 @@ namespace {
 using Table = std::map<std::string, std::vector<double>>;
 
 Table run_sinker(const std::string &method, const std::string &more, int ranks = 1) {
-  TemporaryFolder folder;
+  WorkingFolder folder;
   const ProgramResult result = honeyguide(
       "-options_file " HONEYGUIDE_EXAMPLES "/sinker-" + method + ".yml -ts_monitor_quantities table.csv -quiet " + more,
       ranks);
@@ -71,7 +71,7 @@ TEST(Sinker, TwiceTheSameRunIsBitwiseTheSame) {
 
 TEST(Sinker, ARestartContinuesBitwise) {
   for (const char *method : {"fem", "mpm"}) {
-    TemporaryFolder folder;
+    WorkingFolder folder;
     const std::string base = "-options_file " HONEYGUIDE_EXAMPLES "/sinker-" + std::string(method) + ".yml -quiet ";
     ASSERT_EQ(honeyguide(base + "-ts_max_steps 4 -ts_monitor_quantities whole.csv").status, 0);
     ASSERT_EQ(honeyguide(base + "-ts_max_steps 2 -ts_monitor_quantities parts.csv -checkpoint state.h5").status, 0);
