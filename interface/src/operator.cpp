@@ -52,7 +52,7 @@ CeedOperator_private::~CeedOperator_private() {
 
 void CeedOperator_private::view(FILE *stream, bool with_fields) const {
   const hg::Lines line(stream, num_view_tabs);
-  line(0, "%sCeedOperator%s%s", is_composite ? "Composite " : "", name.empty() ? "" : " - ", name.c_str());
+  line(0, "%sCeedOperator%s%s", is_composite ? "Composite " : "", *full_name() == '\0' ? "" : " - ", full_name());
   if (!is_composite) {
     if (with_fields) view_fields(stream, num_view_tabs);
     return;
@@ -202,7 +202,7 @@ int CeedOperatorSetName(CeedOperator op, const char *name) {
 }
 
 int CeedOperatorGetName(CeedOperator op, const char **name) {
-  return hg::guard(hg::ceed_of(op), [&] { *name = hg::deref(op, "CeedOperator").name.c_str(); });
+  return hg::guard(hg::ceed_of(op), [&] { *name = hg::deref(op, "CeedOperator").full_name(); });
 }
 
 int CeedOperatorSetNumViewTabs(CeedOperator op, CeedInt num_tabs) {

@@ -32,7 +32,7 @@ struct CeedOperator_private final : CeedObject_private {
   Ceed owner() const override { return ceed.get(); }
 
   hg::Ref<Ceed_private> ceed;
-  std::string name;
+  std::string name;  ///< as it was set; "" where it was not
   bool is_at_points = false, is_composite = false, is_sequential = false;
   bool is_immutable = false;  ///< used: takes no more fields or sub-operators
 
@@ -58,7 +58,10 @@ struct CeedOperator_private final : CeedObject_private {
   hg::Ref<CeedVector_private> assembled;
   hg::Ref<CeedElemRestriction_private> assembled_rstr;
 
-  const char *shown_name() const { return name.empty() ? "(no name)" : name.c_str(); }
+  /// Its name; without one, that of its QFunction; "" for a composite without one.
+  const char *full_name() const { return (name.empty() && qf ? qf->name() : name).c_str(); }
+  /// For messages.
+  const char *shown_name() const { return *full_name() == '\0' ? "(no name)" : full_name(); }
 };
 
 namespace hg {

@@ -110,8 +110,7 @@ CeedQFunction_private::~CeedQFunction_private() {
 
 void CeedQFunction_private::view(FILE *stream) const {
   const hg::Lines line(stream, num_view_tabs);
-  line(0, "%s CeedQFunction - %s", gallery_name.empty() ? "User" : "Gallery",
-       gallery_name.empty() ? kernel_name.c_str() : gallery_name.c_str());
+  line(0, "%s CeedQFunction - %s", gallery_name.empty() ? "User" : "Gallery", name().c_str());
   const auto print = [&](const char *what, const char *title, const std::vector<CeedQFunctionField> &fields) {
     line(1, "%zu %s field%s:", fields.size(), what, hg::plural(fields.size()));
     for (std::size_t i = 0; i < fields.size(); i++) {
@@ -326,10 +325,7 @@ int CeedQFunctionGetKernelName(CeedQFunction qf, const char **kernel_name) {
 }
 
 int CeedQFunctionGetName(CeedQFunction qf, const char **name) {
-  return hg::guard(hg::ceed_of(qf), [&] {
-    const auto &f = hg::deref(qf, "CeedQFunction");
-    *name = f.gallery_name.empty() ? f.kernel_name.c_str() : f.gallery_name.c_str();
-  });
+  return hg::guard(hg::ceed_of(qf), [&] { *name = hg::deref(qf, "CeedQFunction").name().c_str(); });
 }
 
 int CeedQFunctionGetSourcePath(CeedQFunction qf, const char **source_path) {

@@ -20,6 +20,8 @@ struct CeedQFunction_private final : CeedObject_private {
   ~CeedQFunction_private() override;
   void view(FILE *stream) const override;
   Ceed owner() const override { return ceed.get(); }
+  /// Its name in the gallery, or that of the user's function.
+  const std::string &name() const { return gallery_name.empty() ? kernel_name : gallery_name; }
 
   hg::Ref<Ceed_private> ceed;
   CeedInt vec_length = 1;

@@ -12,6 +12,11 @@ for header in ceed.h ceed/*.h; do
 done
 [ $count -ge 5 ] || { echo "only $count headers; expected ceed.h and those in ceed/"; exit 1; }
 
+# Bindings of other languages read the header line by line and pass over the declaration with "...": it must be whole on
+# one line.
+open=$(grep -n ', \.\.\.)' ceed/ceed.h | grep -v -e '#define' -e 'CEED_EXTERN int CeedErrorImpl(.*);$' || true)
+[ -z "$open" ] || { echo "variable arguments in a declaration of several lines: $open"; exit 1; }
+
 qfunctions=0
 while read -r header; do
   $CC -std=c11 -Wall -Wextra -Werror -Wno-unused -I. -fsyntax-only -x c - <<< "#include \"$header\""

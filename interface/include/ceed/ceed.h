@@ -98,9 +98,9 @@ CEED_EXTERN int CeedGetNumViewTabs(Ceed ceed, CeedInt *num_tabs);
 CEED_EXTERN int CeedView(Ceed ceed, FILE *stream);
 CEED_EXTERN int CeedDestroy(Ceed *ceed);
 
-/// Reports an error to the handler of `ceed` (of the process where it is NULL); use the macro CeedError().
-CEED_EXTERN int CeedErrorImpl(Ceed ceed, const char *filename, int lineno, const char *func, int ecode,
-                              const char *format, ...);
+/// Reports an error to the handler of the Ceed (of the process where it is NULL): file, line, function, code, format and
+/// its arguments; use the macro CeedError(). One line, because bindings read this header line by line.
+CEED_EXTERN int CeedErrorImpl(Ceed, const char *, int, const char *, int, const char *, ...);
 /// Reports an error from here; its value is the code.
 #define CeedError(ceed, ecode, ...) \
   (CeedErrorImpl((ceed), __FILE__, __LINE__, __func__, (ecode), __VA_ARGS__), (ecode))
@@ -600,7 +600,9 @@ CEED_EXTERN int CeedOperatorMultigridLevelCreateH1(CeedOperator op_fine, CeedVec
 /// 1e-12 of the element's largest), as that of the constants without mass, count as 1e-5 of the largest; an element on
 /// which the operator vanishes gives zeros.
 CEED_EXTERN int CeedOperatorCreateFDMElementInverse(CeedOperator op, CeedOperator *fdm_inv, CeedRequest *request);
+/// The name that View prints and by which a composite is asked for its part; NULL takes it away.
 CEED_EXTERN int CeedOperatorSetName(CeedOperator op, const char *name);
+/// The name that was set; without one that of the operator's QFunction, and "" for a composite.
 CEED_EXTERN int CeedOperatorGetName(CeedOperator op, const char **name);
 CEED_EXTERN int CeedOperatorSetNumViewTabs(CeedOperator op, CeedInt num_tabs);
 CEED_EXTERN int CeedOperatorGetNumViewTabs(CeedOperator op, CeedInt *num_tabs);
