@@ -664,4 +664,6 @@ static inline CeedInt CeedIntPow(CeedInt base, CeedInt power) {
 static inline CeedInt CeedIntMin(CeedInt a, CeedInt b) { return b < a ? b : a; }
 static inline CeedInt CeedIntMax(CeedInt a, CeedInt b) { return a < b ? b : a; }
 
+#include "deprecated.h"
+
 #endif
