@@ -62,12 +62,15 @@
 
 /// Index of an element, node, point or component.
 typedef int32_t CeedInt;
+/// For printf(), after the percent sign.
 #define CeedInt_FMT "d"
 /// Length of an array; 64 bits wide where the machine is.
 typedef ptrdiff_t CeedSize;
+/// For printf(), after the percent sign.
 #define CeedSize_FMT "td"
 /// Entry of a curl-orientation.
 typedef signed char CeedInt8;
+/// For printf(), after the percent sign.
 #define CeedInt8_FMT "d"
 
 /// Precision of CeedScalar.

@@ -1,0 +1,10 @@
+# Runs PROGRAM on each of the RESOURCES (separated by commas): it succeeds, and prints what is in the file EXPECTED.
+file(READ "${EXPECTED}" expected)
+string(REPLACE "," ";" resources "${RESOURCES}")
+foreach(resource ${resources})
+  execute_process(COMMAND "${PROGRAM}" ${resource} RESULT_VARIABLE status OUTPUT_VARIABLE printed ERROR_VARIABLE errors)
+  if(NOT status STREQUAL "0" OR NOT printed STREQUAL expected OR NOT errors STREQUAL "")
+    message(FATAL_ERROR "${PROGRAM} ${resource}: exit status ${status}\n${errors}\nprinted:\n${printed}\nexpected (${EXPECTED}):\n${expected}")
+  endif()
+  message(STATUS "${resource}: as expected")
+endforeach()
