@@ -12,6 +12,8 @@ ownership   A function that hands out handles, strings or arrays says in its own
 errors      Each CEED_ERROR_ code that the implementation may raise is explained in one of the texts; a code in the
             function's own text is one that the implementation may raise.
 
+Pages show each group, and each program of examples/, once.
+
 What the implementation may raise is found by walking from the function through all that it calls, by names. That finds
 too much rather than too little, but sees no errors of backends, which the file's text is about.
 """
@@ -23,7 +25,8 @@ import pathlib
 import re
 import sys
 
-SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = HERE.parent.parent
 HEADERS = ["ceed.h", "backend.h", "plugin.h", "jit-tools.h"]
 HANDLES = ["Ceed", "CeedVector", "CeedElemRestriction", "CeedBasis", "CeedQFunction", "CeedQFunctionContext",
            "CeedOperator", "CeedObject", "CeedRequest"]
@@ -239,6 +242,20 @@ def defined_name(head):
     return match.group(1) if match else None
 
 
+def not_shown(include):
+    """Groups of functions and programs that no page of the reference shows, or that two do."""
+    pages = "".join(page.read_text() for page in sorted(HERE.glob("*.md")))
+    for header in HEADERS:
+        for group in re.findall(r"^/// @defgroup (\w+)", (include / header).read_text(), flags=re.MULTILINE):
+            count = len(re.findall(rf"^```\{{doxygengroup\}} {group}$", pages, flags=re.MULTILINE))
+            if count != 1:
+                yield f"{header}: the group {group} is on {count} pages of docs/api; expected 1"
+    for program in sorted(HERE.glob("examples/*")):
+        count = pages.count(f"{{literalinclude}} examples/{program.name}\n")
+        if count != 1:
+            yield f"docs/api/examples/{program.name} is on {count} pages; expected 1"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--include", type=pathlib.Path, default=SOURCE / "interface" / "include" / "ceed")
@@ -249,7 +266,7 @@ def main():
     functions = [function for header in HEADERS for function in functions_of(args.include / header)]
     common = functions[0].file
     functions = [function._replace(file=common + "\n\n" + function.file) for function in functions]
-    complaints = []
+    complaints = list(not_shown(args.include))
     for function in functions:
         def complain(text):
             complaints.append(f"{function.place}: {function.name}: {text}")

@@ -316,7 +316,7 @@ CEED_EXTERN int CeedQFunctionGetInnerContextData(CeedQFunction qf, CeedMemType m
 CEED_EXTERN int CeedQFunctionRestoreInnerContextData(CeedQFunction qf, void *data);
 /// Whether it was made by CeedQFunctionCreateIdentity().
 CEED_EXTERN int CeedQFunctionIsIdentity(CeedQFunction qf, bool *is_identity);
-/// What CeedQFunctionSetContextWritable() said; true for a new one.
+/// What CeedQFunctionSetContextWritable() said, or the default.
 CEED_EXTERN int CeedQFunctionIsContextWritable(CeedQFunction qf, bool *is_writable);
 /// The pointer of the backend.
 CEED_EXTERN int CeedQFunctionGetData(CeedQFunction qf, void *data);

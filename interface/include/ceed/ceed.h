@@ -186,8 +186,9 @@ CEED_EXTERN int CeedQFunctionRegisterAll(void);
 /// - `format`, `args`: the message, as for vprintf()
 /// @{
 
-/// Reports an error to the handler of the Ceed (of the process where it is NULL): file, line, function, code, format and
-/// its arguments; use the macro CeedError(). Returns the code. One line, because bindings read this header line by line.
+/// Reports an error to the handler of the Ceed (of the process where it is NULL): file, line, function, code, format
+/// and its arguments; use the macro CeedError(). Returns the code. One line, because bindings read this header line by
+/// line.
 CEED_EXTERN int CeedErrorImpl(Ceed, const char *, int, const char *, int, const char *, ...);
 /// Reports an error from here; its value is the code.
 #define CeedError(ceed, ecode, ...) \
@@ -450,7 +451,7 @@ CEED_EXTERN int CeedElemRestrictionGetCompStride(CeedElemRestriction rstr, CeedI
 CEED_EXTERN int CeedElemRestrictionGetNumElements(CeedElemRestriction rstr, CeedInt *num_elem);
 /// Nodes of an element; at points the largest number of points of an element.
 CEED_EXTERN int CeedElemRestrictionGetElementSize(CeedElemRestriction rstr, CeedInt *elem_size);
-/// Number of points of all elements, as it was given. Error CEED_ERROR_INCOMPATIBLE, here and below: it has no points.
+/// Number of points, as it was given. Error CEED_ERROR_INCOMPATIBLE, here and below: it has no points.
 CEED_EXTERN int CeedElemRestrictionGetNumPoints(CeedElemRestriction rstr, CeedInt *num_points);
 /// Number of points of the element `elem`.
 CEED_EXTERN int CeedElemRestrictionGetNumPointsInElement(CeedElemRestriction rstr, CeedInt elem, CeedInt *num_points);
@@ -660,7 +661,8 @@ CEED_EXTERN int CeedQFunctionGetFields(CeedQFunction qf, CeedInt *num_input_fiel
                                        CeedInt *num_output_fields, CeedQFunctionField **output_fields);
 /// Gives the function the data `ctx`; NULL: none. The context is counted.
 CEED_EXTERN int CeedQFunctionSetContext(CeedQFunction qf, CeedQFunctionContext ctx);
-/// Promise that the function only reads its context (`is_writable` is false); the default is true.
+/// Promise that the function only reads its context (`is_writable` is false); the default is true, in the gallery
+/// false.
 CEED_EXTERN int CeedQFunctionSetContextWritable(CeedQFunction qf, bool is_writable);
 /// Floating point operations at a point, `flops` >= 0, for CeedOperatorGetFlopsEstimate(). Error
 /// CEED_ERROR_INCOMPATIBLE: fewer.
@@ -753,7 +755,7 @@ CEED_EXTERN int CeedQFunctionContextGetAllFieldLabels(CeedQFunctionContext ctx,
 CEED_EXTERN int CeedContextFieldLabelGetDescription(CeedContextFieldLabel label, const char **field_name,
                                                     size_t *field_offset, size_t *num_values,
                                                     const char **field_description, CeedContextFieldType *field_type);
-/// Bytes of the data; 0 without.
+/// Bytes of the data that were set last; 0 before.
 CEED_EXTERN int CeedQFunctionContextGetContextSize(CeedQFunctionContext ctx, size_t *ctx_size);
 /// CeedObjectSetNumViewTabs() of a context.
 CEED_EXTERN int CeedQFunctionContextSetNumViewTabs(CeedQFunctionContext ctx, CeedInt num_tabs);
@@ -927,8 +929,8 @@ CEED_EXTERN int CeedOperatorMultigridLevelCreateH1(CeedOperator op_fine, CeedVec
 /// 1e-12 of the element's largest), as that of the constants without mass, count as 1e-5 of the largest; an element on
 /// which the operator vanishes gives zeros. The caller destroys *fdm_inv.
 CEED_EXTERN int CeedOperatorCreateFDMElementInverse(CeedOperator op, CeedOperator *fdm_inv, CeedRequest *request);
-/// Gives the operator a `name`, which is copied: View prints it, messages show it, and a composite is asked for its part
-/// by it. NULL takes it away.
+/// Gives the operator a `name`, which is copied: View prints it, messages show it, and a composite is asked for its
+/// part by it. NULL takes it away.
 CEED_EXTERN int CeedOperatorSetName(CeedOperator op, const char *name);
 /// The name that was set; without one that of the operator's QFunction, and "" for a composite.
 CEED_EXTERN int CeedOperatorGetName(CeedOperator op, const char **name);
