@@ -7,6 +7,8 @@ many. Demanded:
 parameters  Each is named in the function's own text, or in an item "- `name`: ..." of the other texts. Two need none
             where the file's text has the rule: the first argument, if it is the object that the function is of ("first
             argument"), and the last one of a function that makes or asks ("last argument").
+shapes      A function with arrays of numbers says how many they hold, in its own text or in the item of the array, or
+            names the function whose arguments it has; one with a size or an offset in bytes says bytes.
 ownership   A function that hands out handles, strings or arrays says in its own text who ends their life, or an item
             "- `pattern`: ..." of the other texts does, whose pattern fits the function's name (handles) or is the type.
 errors      Each CEED_ERROR_ code that the implementation may raise is explained in one of the texts; a code in the
@@ -32,6 +34,9 @@ HANDLES = ["Ceed", "CeedVector", "CeedElemRestriction", "CeedBasis", "CeedQFunct
            "CeedOperator", "CeedObject", "CeedRequest"]
 OWNERSHIP = re.compile(r"\b(frees?|free\(\)|points into|belongs?|keeps?|(not )?counted|caller destroys|valid|lives?"
                        r"|gives it back)\b")
+NUMBERS = ["CeedScalar", "CeedInt", "CeedInt8", "bool", "double", "int32_t"]
+SHAPE = re.compile(r"\bby\b|\bentr(y|ies)\b|\[|\beach\b|as many|coordinates|weights|`num_\w+`|Q_1d|length|of them|\*n\b"
+                   r"|Ceed\w+\(\)")
 CODE = re.compile(r"CEED_ERROR_(?:MINOR|DIMENSION|INCOMPLETE|INCOMPATIBLE|ACCESS|MAJOR|BACKEND|UNSUPPORTED)")
 OPAQUE = ["Ref", "guard", "report"]  # what is raised there goes no further, or is the same for all
 
@@ -132,6 +137,26 @@ def undocumented_parameters(function):
         if asks and position == len(function.params) - 1 and ("*" in kind) and "last argument" in function.file:
             continue
         yield name
+
+
+def shapeless(function):
+    """Arrays of numbers of which nothing is said, and sizes without their unit."""
+    if "Restore" in function.name:
+        return
+    shared = {**items(function.file), **items(function.group)}
+    for kind, name in function.params:
+        text = function.own + shared.get(name, "")
+        base, stars = kind.replace("const", "").replace("*", "").strip(), kind.count("*")
+        is_array = stars >= 2 or (stars == 1 and (kind.startswith("const") or base == "CeedScalar"))
+        if base in NUMBERS and is_array and not SHAPE.search(text) and not is_answer(function, name):
+            yield f"does not say how many entries '{name}' has"
+        if base == "size_t" and re.search("size|offset", name) and "bytes" not in text.lower():
+            yield f"does not say that '{name}' counts bytes"
+
+
+def is_answer(function, name):
+    """Whether the argument is where one number goes, not an array."""
+    return name in ("norm", "usage_mb")
 
 
 def handed_out(function):
@@ -281,6 +306,8 @@ def main():
             continue
         for name in undocumented_parameters(function):
             complain(f"says nothing of the parameter '{name}'")
+        for text in shapeless(function):
+            complain(text)
         for kind in handed_out(function):
             if not says_who_owns(function, kind):
                 complain(f"hands out a '{kind}' and does not say who owns it")

@@ -134,17 +134,19 @@ CEED_EXTERN int CeedElemRestrictionAtPointsAreCompatible(CeedElemRestriction rst
 CEED_EXTERN int CeedElemRestrictionGetStrides(CeedElemRestriction rstr, CeedInt strides[3]);
 /// Whether the user left the strides to the backend.
 CEED_EXTERN int CeedElemRestrictionHasBackendStrides(CeedElemRestriction rstr, bool *has_backend_strides);
-/// Read access to the offsets, which the restriction keeps, until CeedElemRestrictionRestoreOffsets(); destroying it
-/// before is an error. The tables of blocked restrictions are in blocks and whole, as CeedElementMap (ceed/plugin.h)
-/// says. NULL for strided ones.
+/// Read access to the offsets, an entry for each node of each element (at points: starts, then points), which the
+/// restriction keeps, until CeedElemRestrictionRestoreOffsets(); destroying it before is an error. The tables of
+/// blocked restrictions are in blocks and whole, as CeedElementMap (ceed/plugin.h) says. NULL for strided ones.
 CEED_EXTERN int CeedElemRestrictionGetOffsets(CeedElemRestriction rstr, CeedMemType mem_type, const CeedInt **offsets);
 /// Ends a read access, and sets *offsets to NULL.
 CEED_EXTERN int CeedElemRestrictionRestoreOffsets(CeedElemRestriction rstr, const CeedInt **offsets);
-/// Read access to the signs of an oriented restriction, which keeps them; NULL where it is another.
+/// Read access to the orientations of an oriented restriction, an entry for each node of each element, which it keeps;
+/// NULL where it is another.
 CEED_EXTERN int CeedElemRestrictionGetOrientations(CeedElemRestriction rstr, CeedMemType mem_type, const bool **orients);
 /// Ends a read access, and sets *orients to NULL.
 CEED_EXTERN int CeedElemRestrictionRestoreOrientations(CeedElemRestriction rstr, const bool **orients);
-/// Read access to the matrices of a curl-oriented restriction, which keeps them; NULL where it is another.
+/// Read access to the matrices of a curl-oriented restriction, three entries for each node of each element, which it
+/// keeps; NULL where it is another.
 CEED_EXTERN int CeedElemRestrictionGetCurlOrientations(CeedElemRestriction rstr, CeedMemType mem_type,
                                                        const CeedInt8 **curl_orients);
 /// Ends a read access, and sets *curl_orients to NULL.

@@ -108,8 +108,8 @@ CEED_EXTERN int CeedObjectDestroy(CeedObject *obj);
 /// or empty; CEED_ERROR_MAJOR, CEED_ERROR_INCOMPATIBLE: the library's own backends could not be registered.
 /// @{
 
-/// Registered resources: *n names in *resources and their priorities in *array (lower is preferred). The caller frees
-/// both arrays with free(), not the names, which live as long as the process. Each of the two may be NULL.
+/// Registered resources: *n names in *resources and their *n priorities in *array (lower is preferred). The caller
+/// frees both arrays with free(), not the names, which live as long as the process. Each of the two may be NULL.
 CEED_EXTERN int CeedRegistryGetList(size_t *n, char ***const resources, CeedInt **array);
 /// Opens the backend whose name begins with `resource`, in whole components ("/cpu/self" opens "/cpu/self/ref/serial");
 /// of several the one with the lowest priority that this machine can run. What follows a colon
@@ -277,7 +277,7 @@ CEED_EXTERN int CeedVectorSetValueStrided(CeedVector vec, CeedSize start, CeedSi
                                           CeedScalar value);
 /// Makes the array that the user lent (CEED_USE_POINTER) hold the current values.
 CEED_EXTERN int CeedVectorSyncArray(CeedVector vec, CeedMemType mem_type);
-/// Takes back a lent array, with the current values; the vector keeps none. `array` may be NULL. Error
+/// Takes back a lent array, with the current values of all entries; the vector keeps none. `array` may be NULL. Error
 /// CEED_ERROR_INCOMPLETE: none was lent in this memory.
 CEED_EXTERN int CeedVectorTakeArray(CeedVector vec, CeedMemType mem_type, CeedScalar **array);
 /// Read and write access to all entries until CeedVectorRestoreArray(); the vector keeps the `array`.
@@ -342,9 +342,9 @@ CEED_EXTERN int CeedRequestWait(CeedRequest *req);
 /// - `num_comp`: components of a field; 1 or more
 /// - `comp_stride`: entries of the L-vector from a component to the next; 1 or more for several components
 /// - `l_size`: entries of the L-vector
-/// - `offsets`, `orients`, `curl_orients`: tables on the host. CEED_COPY_VALUES copies them; CEED_USE_POINTER: the
-///   caller keeps them, unchanged, as long as the restriction lives; CEED_OWN_POINTER: the restriction frees them with
-///   free(), if it comes to be
+/// - `offsets`, `orients`, `curl_orients`: tables on the host, for the nodes of each element. CEED_COPY_VALUES copies
+///   them; CEED_USE_POINTER: the caller keeps them, unchanged, as long as the restriction lives; CEED_OWN_POINTER: the
+///   restriction frees them with free(), if it comes to be
 ///
 /// Errors:
 /// - CEED_ERROR_DIMENSION: a size, an index or an entry of a table is out of range, or a vector is too short.
@@ -881,7 +881,8 @@ CEED_EXTERN int CeedOperatorLinearAssemblePointBlockDiagonal(CeedOperator op, Ce
 /// assembled += the point-block diagonal.
 CEED_EXTERN int CeedOperatorLinearAssembleAddPointBlockDiagonal(CeedOperator op, CeedVector assembled,
                                                                 CeedRequest *request);
-/// Rows and columns of the *num_entries values of the point-block diagonal. The caller frees rows and cols with free().
+/// Rows and columns, *num_entries of them, of the values of the point-block diagonal. The caller frees rows and cols
+/// with free().
 CEED_EXTERN int CeedOperatorLinearAssemblePointBlockDiagonalSymbolic(CeedOperator op, CeedSize *num_entries,
                                                                      CeedInt **rows, CeedInt **cols);
 /// Rows and columns of all *num_entries element entries in coordinate form; several entries may meet. The caller frees
