@@ -5,6 +5,7 @@ build_packages="build-essential cmake ninja-build pkg-config petsc-dev libopenmp
   libmetis-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenblas0-serial"
 test_packages="libgtest-dev git python3"
 plot_packages="python3 python3-matplotlib python3-h5py"
+coverage_packages="gcovr"
 docs_packages="doxygen python3-sphinx python3-myst-parser furo python3-breathe"
 
 # install_packages NAME...: installs those that are not there yet, and says which.
