@@ -54,6 +54,22 @@ Instance::Instance(Ceed ceed_, const Case &c) : ceed(ceed_) {
     }
   }
   ok(CeedBasisCreateTensorH1Lagrange(ceed, c.dim, 1, 2, c.Q_1d, c.quad_mode, weight_basis.out()));
+  make_operator(c);
+}
+
+Instance::Instance(const Instance &other, const Case &c) : ceed(other.ceed) {
+  for (const Restriction &rstr : other.restrictions) {
+    ok(CeedElemRestrictionReferenceCopy(rstr, restrictions.emplace_back().address()));
+  }
+  for (const Basis &basis : other.bases) {
+    bases.emplace_back();
+    if (basis) ok(CeedBasisReferenceCopy(basis, bases.back().address()));
+  }
+  ok(CeedBasisReferenceCopy(other.weight_basis, weight_basis.address()));
+  make_operator(c);
+}
+
+void Instance::make_operator(const Case &c) {
   for (const Values &values : c.passive) passive.push_back(make_vector(ceed, values));
 
   ok(CeedQFunctionContextCreate(ceed, context.out()));

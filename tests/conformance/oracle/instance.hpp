@@ -13,6 +13,8 @@ namespace hg::test {
 /// The operator of a case on a backend, with what it stands on.
 struct Instance {
   Instance(Ceed ceed, const Case &c);
+  /// Another operator of the same case on the same restrictions and bases; all else is its own.
+  Instance(const Instance &other, const Case &c);
   /// Tells the operator of moved points.
   void set_points(const Case &c);
 
@@ -26,6 +28,9 @@ struct Instance {
   Context context;
   QFunction qf;
   Operator op;
+
+ private:
+  void make_operator(const Case &c);
 };
 
 /// Applies the operator; CEED_VECTOR_NONE stands in where it has no active input or output.
