@@ -255,8 +255,9 @@ std::optional<Target> target_of(CeedOperator op, bool is_block) {
 void assemble(CeedOperator op, CeedVector assembled, bool is_block, bool is_added) {
   const auto target = target_of(op, is_block);
   hg::deref(assembled, "vector of the diagonal");
-  require(!target || assembled->length == target->length, CEED_ERROR_DIMENSION, [&] {
-    return text("CeedOperator '%s': the vector of the %s has length %" CeedSize_FMT "; expected %" CeedSize_FMT,
+  require(!target || assembled->length >= target->length, CEED_ERROR_DIMENSION, [&] {
+    return text("CeedOperator '%s': the vector of the %s has length %" CeedSize_FMT "; expected %" CeedSize_FMT
+                " or more",
                 op->shown_name(), is_block ? "point-block diagonal" : "diagonal", assembled->length, target->length);
   });
   if (!is_added) hg::check(CeedVectorSetValue(assembled, 0.0));

@@ -30,8 +30,7 @@ struct CeedBasis_private final : CeedObject_private {
   /// Q_1d rows, the polynomial through the values at the quadrature points. Empty where those do not determine one
   /// (Q_1d < P_1d, or coinciding points).
   std::vector<CeedScalar> chebyshev_1d;
-  bool is_known_to_backend = false;  ///< the backend's create has run
-  void *data = nullptr;              ///< of the backend
+  void *data = nullptr;  ///< of the backend
 
   CeedInt num_chebyshev() const { return static_cast<CeedInt>(chebyshev_1d.size()) / P_1d; }
 };

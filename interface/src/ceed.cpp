@@ -11,7 +11,7 @@ namespace hg {
 
 CeedErrorHandler default_error_handler();
 /// Keeps the message that a Ceed has stored, where the Ceed itself does not come to be.
-void keep_without_ceed(const std::string &message);
+void keep_without_ceed(ErrorStore &errors);
 
 void require_mem_type(const Ceed_private &ceed, CeedMemType mem_type, const char *what) {
   require(mem_type == CEED_MEM_HOST || mem_type == CEED_MEM_DEVICE, CEED_ERROR_MINOR, [&] {
@@ -56,7 +56,7 @@ int CeedInit(const char *resource, Ceed *ceed) {
     try {
       hg::fill_tables(created.get(), backend, options.c_str());
     } catch (...) {
-      hg::keep_without_ceed(created->error_message);
+      hg::keep_without_ceed(created->errors);
       throw;
     }
     created->is_deterministic = created->is_deterministic || created->ops.is_deterministic;

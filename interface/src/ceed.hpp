@@ -32,8 +32,8 @@ struct Ceed_private final : CeedObject_private {
   void *data = nullptr;  ///< of the backend
   bool is_deterministic = false;
   bool is_clang = false;
-  CeedErrorHandler error_handler = nullptr;
-  std::string error_message;  ///< kept by CeedErrorStore
+  std::atomic<CeedErrorHandler> error_handler = nullptr;
+  hg::ErrorStore errors;
   std::vector<std::string> jit_source_roots;
   std::vector<std::string> jit_defines;
   std::vector<std::string> rust_source_roots;

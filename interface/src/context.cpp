@@ -270,6 +270,7 @@ int CeedQFunctionContextTakeData(CeedQFunctionContext ctx, CeedMemType mem_type,
 int CeedQFunctionContextGetData(CeedQFunctionContext ctx, CeedMemType mem_type, void *data) {
   return hg::guard(hg::ceed_of(ctx), [&] {
     auto &c = deref_context(ctx);
+    const std::scoped_lock lock(c.access);
     // The function's name stands in the message that programs look for, so this is not shared with the other checks.
     require_writable(c);
     require_host(c, mem_type, "CeedQFunctionContextGetData");
@@ -282,6 +283,7 @@ int CeedQFunctionContextGetData(CeedQFunctionContext ctx, CeedMemType mem_type, 
 int CeedQFunctionContextGetDataRead(CeedQFunctionContext ctx, CeedMemType mem_type, void *data) {
   return hg::guard(hg::ceed_of(ctx), [&] {
     auto &c = deref_context(ctx);
+    const std::scoped_lock lock(c.access);
     require_readable(c);
     require_host(c, mem_type, "CeedQFunctionContextGetDataRead");
     require_data(c);
@@ -293,6 +295,7 @@ int CeedQFunctionContextGetDataRead(CeedQFunctionContext ctx, CeedMemType mem_ty
 int CeedQFunctionContextRestoreData(CeedQFunctionContext ctx, void *data) {
   return hg::guard(hg::ceed_of(ctx), [&] {
     auto &c = deref_context(ctx);
+    const std::scoped_lock lock(c.access);
     hg::require(c.has_writer(), CEED_ERROR_ACCESS,
                 "Cannot restore CeedQFunctionContext data access, access was not granted");
     if (data != nullptr) *static_cast<void **>(data) = nullptr;
@@ -303,6 +306,7 @@ int CeedQFunctionContextRestoreData(CeedQFunctionContext ctx, void *data) {
 int CeedQFunctionContextRestoreDataRead(CeedQFunctionContext ctx, void *data) {
   return hg::guard(hg::ceed_of(ctx), [&] {
     auto &c = deref_context(ctx);
+    const std::scoped_lock lock(c.access);
     hg::require(c.num_readers > 0, CEED_ERROR_ACCESS,
                 "Cannot restore CeedQFunctionContext data read access, access was not granted");
     if (data != nullptr) *static_cast<void **>(data) = nullptr;

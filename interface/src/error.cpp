@@ -35,18 +35,35 @@ CeedErrorHandler handler_from_environment() {
   return CeedErrorAbort;
 }
 
-/// The message kept by CeedErrorStore() when there is no Ceed to keep it.
-std::string &stored_without_ceed() {
-  thread_local std::string message;
-  return message;
+/// Keeps messages where there is no Ceed to do so.
+ErrorStore &store_of(Ceed ceed) {
+  thread_local ErrorStore without_ceed;
+  return ceed != nullptr ? ceed->errors : without_ceed;
 }
 
 constexpr const char *no_message = "No error message stored";
 
 }  // namespace
 
-void keep_without_ceed(const std::string &message) {
-  if (!message.empty()) stored_without_ceed() = message;
+void ErrorStore::keep(std::string message) {
+  const std::scoped_lock lock(mutex_);
+  message_ = std::move(message);
+}
+
+const char *ErrorStore::get() {
+  const std::scoped_lock lock(mutex_);
+  return message_.empty() ? no_message : handed_out_.insert(message_).first->c_str();
+}
+
+void ErrorStore::forget() {
+  const std::scoped_lock lock(mutex_);
+  message_.clear();
+  handed_out_.clear();
+}
+
+void keep_without_ceed(ErrorStore &errors) {
+  const char *message = errors.get();
+  if (message != no_message) store_of(nullptr).keep(message);
 }
 
 CeedErrorHandler default_error_handler() { return handler_from_environment(); }
@@ -68,7 +85,7 @@ int report(Ceed ceed, const Error &error, const char *function) noexcept {
 int CeedErrorImpl(Ceed ceed, const char *filename, int lineno, const char *func, int ecode, const char *format, ...) {
   va_list args;
   va_start(args, format);
-  const CeedErrorHandler handler = ceed != nullptr ? ceed->error_handler : hg::handler_from_environment();
+  const CeedErrorHandler handler = ceed != nullptr ? ceed->error_handler.load() : hg::handler_from_environment();
   handler(ceed, filename, lineno, func, ecode, format, &args);
   va_end(args);
   return ecode;
@@ -78,12 +95,10 @@ int CeedErrorReturn(Ceed, const char *, int, const char *, int err_code, const c
 
 int CeedErrorStore(Ceed ceed, const char *filename, int line_no, const char *func, int err_code, const char *format,
                    va_list *args) {
-  std::string &store = ceed != nullptr ? ceed->error_message : hg::stored_without_ceed();
-  // An error can pass several handlers on its way out; the first one tells what happened.
   try {
-    store = hg::located(filename, line_no, func, hg::format_v(format, *args));
+    hg::store_of(ceed).keep(hg::located(filename, line_no, func, hg::format_v(format, *args)));
   } catch (const std::exception &) {
-    store.clear();
+    hg::store_of(ceed).keep({});
   }
   return err_code;
 }
@@ -111,13 +126,12 @@ int CeedSetErrorHandler(Ceed ceed, CeedErrorHandler handler) {
 }
 
 int CeedGetErrorMessage(Ceed ceed, const char **err_msg) {
-  const std::string &store = ceed != nullptr ? ceed->error_message : hg::stored_without_ceed();
-  *err_msg = store.empty() ? hg::no_message : store.c_str();
-  return CEED_ERROR_SUCCESS;
+  return hg::guard(ceed, [&] { *err_msg = hg::store_of(ceed).get(); });
 }
 
 int CeedResetErrorMessage(Ceed ceed, const char **err_msg) {
-  (ceed != nullptr ? ceed->error_message : hg::stored_without_ceed()).clear();
-  *err_msg = nullptr;
-  return CEED_ERROR_SUCCESS;
+  return hg::guard(ceed, [&] {
+    hg::store_of(ceed).forget();
+    *err_msg = nullptr;
+  });
 }

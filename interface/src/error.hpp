@@ -5,7 +5,9 @@
 #include <ceed/backend.h>
 
 #include <exception>
+#include <mutex>
 #include <new>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -67,6 +69,20 @@ inline void check(int code) {
 /// Calls the handler of `ceed` (of the process if NULL) with the error; `function` is the entry point that the user
 /// called. Never throws.
 int report(Ceed ceed, const Error &error, const char *function) noexcept;
+
+/// What CeedErrorStore() keeps: the last message, of whichever thread. What has been handed out stays where it is until
+/// it is forgotten, so a thread may read it while another one fails.
+class ErrorStore {
+ public:
+  void keep(std::string message);
+  const char *get();
+  void forget();
+
+ private:
+  std::mutex mutex_;
+  std::string message_;
+  std::set<std::string> handed_out_;
+};
 
 /// Runs `f`; what it throws becomes a code after the handler of `ceed` has seen it.
 template <typename F>

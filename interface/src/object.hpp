@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
 #include <utility>
 
 #include "error.hpp"
@@ -22,6 +23,8 @@ struct CeedObject_private {
 
   std::atomic<int> ref_count{1};
   bool is_sentinel = false;  ///< the constants such as CEED_VECTOR_ACTIVE: never counted, never destroyed
+  bool is_known_to_backend = false;  ///< the backend's create has succeeded, so its destroy is due
+  std::mutex access;  ///< of counts of readers and writers: threads may read one object at once
   CeedInt num_view_tabs = 0;
 };
 

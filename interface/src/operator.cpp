@@ -47,7 +47,7 @@ void require_single(const CeedOperator_private &op) {
 }  // namespace
 
 CeedOperator_private::~CeedOperator_private() {
-  if (program && ceed->ops.op.destroy != nullptr) ceed->ops.op.destroy(this);
+  if (is_known_to_backend && ceed->ops.op.destroy != nullptr) ceed->ops.op.destroy(this);
 }
 
 void CeedOperator_private::view(FILE *stream, bool with_fields) const {
@@ -194,7 +194,7 @@ int CeedOperatorIsImmutable(CeedOperator op, bool *is_immutable) {
 }
 
 int CeedOperatorIsSetupDone(CeedOperator op, bool *is_setup_done) {
-  return hg::guard(hg::ceed_of(op), [&] { *is_setup_done = hg::deref(op, "CeedOperator").program != nullptr; });
+  return hg::guard(hg::ceed_of(op), [&] { *is_setup_done = hg::deref(op, "CeedOperator").is_known_to_backend; });
 }
 
 int CeedOperatorSetName(CeedOperator op, const char *name) {

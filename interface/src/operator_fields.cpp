@@ -198,12 +198,19 @@ const CeedProgram &program_of(CeedOperator_private &op) {
   if (op.program == nullptr || op.is_program_stale) {
     check_ready(op);
     auto lowered = std::make_unique<Program>(op);
-    const bool is_new = op.program == nullptr;
-    const bool keeps_data = !is_new && lowered->has_shape_of(*op.program);
-    if (!is_new && !keeps_data && op.ceed->ops.op.destroy != nullptr) check(op.ceed->ops.op.destroy(&op));
+    const CeedOperatorOps &ops = op.ceed->ops.op;
+    if (op.is_known_to_backend && !lowered->has_shape_of(*op.program)) {
+      op.is_known_to_backend = false;
+      if (ops.destroy != nullptr) check(ops.destroy(&op));
+    }
     op.program = std::move(lowered);
     op.is_program_stale = false;
-    if (!keeps_data && op.ceed->ops.op.create != nullptr) check(op.ceed->ops.op.create(&op, &op.program->view()));
+    if (!op.is_known_to_backend && ops.create != nullptr) {
+      const int code = ops.create(&op, &op.program->view());
+      op.is_program_stale = code != CEED_ERROR_SUCCESS;  // then the next use tries again
+      check(code);
+    }
+    op.is_known_to_backend = true;
   }
   return op.program->view();
 }
@@ -256,9 +263,9 @@ int CeedOperatorSetField(CeedOperator op, const char *field_name, CeedElemRestri
       } else {
         check_basis_field(*op, field_name, size, mode, *rstr, basis);
       }
-      require(vec == CEED_VECTOR_ACTIVE || vec->length == rstr->l_size, CEED_ERROR_DIMENSION, [&] {
+      require(vec == CEED_VECTOR_ACTIVE || vec->length >= rstr->l_size, CEED_ERROR_DIMENSION, [&] {
         return text("CeedOperator '%s' field '%s': the vector has length %" CeedSize_FMT
-                    "; the restriction expects %" CeedSize_FMT,
+                    "; the restriction expects %" CeedSize_FMT " or more",
                     op->shown_name(), field_name, vec->length, rstr->l_size);
       });
     }
@@ -279,6 +286,7 @@ int CeedOperatorSetField(CeedOperator op, const char *field_name, CeedElemRestri
     if (moves) {
       op->points_epoch++;
       op->is_program_stale = true;
+      op->assembly_needs_update = true;
     }
   });
 }
@@ -294,9 +302,9 @@ int CeedOperatorAtPointsSetPoints(CeedOperator op, CeedElemRestriction rstr_poin
     require(rstr_points->is_points(), CEED_ERROR_INCOMPATIBLE, [&] {
       return text("CeedOperator '%s': the restriction of the points is not one at points", op->shown_name());
     });
-    require(point_coords->length == rstr_points->l_size, CEED_ERROR_DIMENSION, [&] {
+    require(point_coords->length >= rstr_points->l_size, CEED_ERROR_DIMENSION, [&] {
       return text("CeedOperator '%s': the vector of the points has length %" CeedSize_FMT
-                  "; the restriction expects %" CeedSize_FMT,
+                  "; the restriction expects %" CeedSize_FMT " or more",
                   op->shown_name(), point_coords->length, rstr_points->l_size);
     });
     agree(op->num_elem, rstr_points->num_elem, *op, "points", "elements");

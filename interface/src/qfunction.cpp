@@ -55,6 +55,7 @@ hg::Ref<CeedQFunction_private> create(Ceed ceed, CeedInt vec_length, CeedQFuncti
   qf->function = function;
   split_source(source, *qf);
   if (ceed->ops.qfunction.create != nullptr) hg::check(ceed->ops.qfunction.create(qf.get()));
+  qf->is_known_to_backend = true;
   return qf;
 }
 
@@ -105,7 +106,7 @@ int find_field(const std::vector<CeedQFunctionField> &fields, std::string_view n
 }  // namespace hg
 
 CeedQFunction_private::~CeedQFunction_private() {
-  if (ceed && ceed->ops.qfunction.destroy != nullptr) ceed->ops.qfunction.destroy(this);
+  if (is_known_to_backend && ceed->ops.qfunction.destroy != nullptr) ceed->ops.qfunction.destroy(this);
 }
 
 void CeedQFunction_private::view(FILE *stream) const {

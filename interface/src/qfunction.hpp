@@ -31,7 +31,7 @@ struct CeedQFunction_private final : CeedObject_private {
   std::string gallery_name;  ///< "" for user functions
   bool is_identity = false;
   bool counts_components = false;  ///< of the gallery: its context is one CeedInt, the size of its first input
-  bool is_immutable = false;  ///< used by an operator: takes no more fields
+  std::atomic<bool> is_immutable = false;  ///< used by an operator: takes no more fields
   bool is_context_writable = true;
   CeedSize user_flops = -1;  ///< a point; -1: not given
   std::vector<std::unique_ptr<CeedQFunctionField_private>> inputs, outputs;

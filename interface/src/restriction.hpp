@@ -60,7 +60,6 @@ struct CeedElemRestriction_private final : CeedObject_private, CeedElementMap {
   hg::HostArray<bool> orients;  ///< oriented ones, as the user gave them; the signs in `bands` say the same
   hg::Ref<CeedElemRestriction_private> base;  ///< the restriction whose tables a copy reads
   std::uint64_t num_readers = 0;              ///< of the offsets and orientations
-  bool is_known_to_backend = false;
   void *data = nullptr;  ///< of the backend
 
   bool is_points() const { return type == CEED_RESTRICTION_POINTS; }

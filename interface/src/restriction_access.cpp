@@ -26,6 +26,7 @@ int get_array(CeedElemRestriction rstr, CeedMemType mem_type, const T **array, G
         hg::require_mem_type(*r.ceed, mem_type, function);
         hg::require(mem_type == CEED_MEM_HOST, CEED_ERROR_UNSUPPORTED,
                     "CeedElemRestriction: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST");
+        const std::scoped_lock lock(r.access);
         *array = getter(r);
         r.num_readers++;
       },
@@ -39,6 +40,7 @@ int restore_array(CeedElemRestriction rstr, const T **array, const char *what,
       hg::ceed_of(rstr),
       [&] {
         auto &r = hg::deref_restriction(rstr);
+        const std::scoped_lock lock(r.access);
         hg::require(r.num_readers > 0, CEED_ERROR_ACCESS,
                     [&] { return hg::text("Cannot restore CeedElemRestriction %s, access was not granted", what); });
         r.num_readers--;

@@ -25,7 +25,7 @@ CeedRequest *const CEED_REQUEST_IMMEDIATE = &immediate;
 CeedRequest *const CEED_REQUEST_ORDERED = &ordered;
 
 CeedVector_private::~CeedVector_private() {
-  if (ceed && ops().destroy != nullptr) ops().destroy(this);
+  if (is_known_to_backend && ops().destroy != nullptr) ops().destroy(this);
 }
 
 void CeedVector_private::check_destroyable() const {
@@ -93,6 +93,7 @@ int CeedVectorCreate(Ceed ceed, CeedSize len, CeedVector *vec) {
     created->ceed = hg::Ref<Ceed_private>(ceed);
     created->length = len;
     hg::check(ceed->ops.vector.create(created.get()));
+    created->is_known_to_backend = true;
     *vec = created.release();
   });
 }
@@ -112,6 +113,7 @@ int CeedVectorDestroy(CeedVector *vec) {
 int CeedVectorSetArray(CeedVector vec, CeedMemType mem_type, CeedCopyMode copy_mode, CeedScalar *array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
+    const std::scoped_lock lock(v.access);
     hg::require_writable(v);
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorSetArray");
     hg::require(copy_mode == CEED_COPY_VALUES || copy_mode == CEED_USE_POINTER || copy_mode == CEED_OWN_POINTER,
@@ -141,6 +143,7 @@ int CeedVectorSyncArray(CeedVector vec, CeedMemType mem_type) {
 int CeedVectorTakeArray(CeedVector vec, CeedMemType mem_type, CeedScalar **array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
+    const std::scoped_lock lock(v.access);
     hg::require(!v.has_writer(), CEED_ERROR_ACCESS, "Cannot take CeedVector array, the access lock is already in use");
     hg::require(v.num_readers == 0, CEED_ERROR_ACCESS, "Cannot take CeedVector array, a process has read access");
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorTakeArray");
@@ -163,6 +166,7 @@ int CeedVectorTakeArray(CeedVector vec, CeedMemType mem_type, CeedScalar **array
 int CeedVectorGetArray(CeedVector vec, CeedMemType mem_type, CeedScalar **array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
+    const std::scoped_lock lock(v.access);
     hg::require_writable(v);
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorGetArray");
     hg::require_values(v, "CeedVector");
@@ -174,6 +178,7 @@ int CeedVectorGetArray(CeedVector vec, CeedMemType mem_type, CeedScalar **array)
 int CeedVectorGetArrayRead(CeedVector vec, CeedMemType mem_type, const CeedScalar **array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
+    const std::scoped_lock lock(v.access);
     hg::require_readable(v);
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorGetArrayRead");
     hg::require_values(v, "CeedVector");
@@ -185,6 +190,7 @@ int CeedVectorGetArrayRead(CeedVector vec, CeedMemType mem_type, const CeedScala
 int CeedVectorGetArrayWrite(CeedVector vec, CeedMemType mem_type, CeedScalar **array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
+    const std::scoped_lock lock(v.access);
     hg::require_writable(v);
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorGetArrayWrite");
     hg::check(v.ops().get_array_write(vec, mem_type, array));
@@ -195,6 +201,7 @@ int CeedVectorGetArrayWrite(CeedVector vec, CeedMemType mem_type, CeedScalar **a
 int CeedVectorRestoreArray(CeedVector vec, CeedScalar **array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
+    const std::scoped_lock lock(v.access);
     hg::require(v.has_writer(), CEED_ERROR_ACCESS, "Cannot restore CeedVector array access, access was not granted");
     // Whatever the backend thinks of what was done, the access is over.
     if (array != nullptr) *array = nullptr;
@@ -206,6 +213,7 @@ int CeedVectorRestoreArray(CeedVector vec, CeedScalar **array) {
 int CeedVectorRestoreArrayRead(CeedVector vec, const CeedScalar **array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
+    const std::scoped_lock lock(v.access);
     hg::require(v.num_readers > 0, CEED_ERROR_ACCESS,
                 "Cannot restore CeedVector array read access, access was not granted");
     // The backend hears of the last reader only: that is when its array may move.

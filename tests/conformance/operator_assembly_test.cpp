@@ -141,6 +141,9 @@ TEST_P(AssemblyTest, KeepsTheQFunctionAtPoints) {
   ok(CeedOperatorAtPointsSetPoints(op, rstr_many, x_many));
   ok(CeedOperatorSetField(op, "in1", rstr_many, CEED_BASIS_NONE, s_many));
   expect_close(diagonal(op), diagonal(make_operator(rstr_many, s_many, x_many)), tolerance(50), "moved points");
+  const Vector s_other = make_vector(ceed, random.reals(6));
+  ok(CeedOperatorSetField(op, "in1", rstr_many, CEED_BASIS_NONE, s_other));
+  expect_close(diagonal(op), diagonal(make_operator(rstr_many, s_other, x_many)), tolerance(50), "another field");
 }
 
 /// Thousands of elements: assembly in pieces gives what it gives at once.

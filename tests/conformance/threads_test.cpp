@@ -1,5 +1,5 @@
-// Several threads on one Ceed: each makes, applies, assembles and destroys operators of its own, on restrictions and bases
-// of its own or on shared ones. What is wrong here is seen best under the thread sanitizer.
+// Several threads on one Ceed: each makes, applies, assembles and destroys operators of its own, on objects of its own or on
+// shared ones. What is wrong here is seen best under the thread sanitizer.
 #include <future>
 #include <optional>
 
@@ -56,7 +56,7 @@ TEST_P(ThreadsTest, HaveOperatorsOfTheirOwn) {
   });
 }
 
-TEST_P(ThreadsTest, MayShareRestrictionsAndBases) {
+TEST_P(ThreadsTest, MayShareWhatOperatorsOnlyRead) {
   for (int seed = 0; seed < num_cases(8); seed++) {
     for (const CaseWishes &wishes : kinds()) {
       Random random(8000 + static_cast<std::uint64_t>(seed));

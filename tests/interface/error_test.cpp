@@ -2,8 +2,11 @@
 #include <ceed/backend.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "support/errors.hpp"
 #include "support/handles.hpp"
@@ -50,6 +53,25 @@ TEST(Error, StoreKeepsTheMessage) {
   ok(CeedResetErrorMessage(ceed, &message));
   EXPECT_EQ(message, nullptr);
   EXPECT_EQ(stored(ceed), "No error message stored");
+}
+
+/// A message that was handed out can be read while other threads fail.
+TEST(Error, SeveralThreadsMayFailAtOnce) {
+  const CeedHandle ceed(open_with("store"));
+  std::vector<std::thread> threads;
+  std::atomic<int> num_other = 0;
+  for (int t = 0; t < 4; t++) {
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 200; i++) {
+        CeedVector vec = nullptr;
+        EXPECT_EQ(CeedVectorCreate(ceed, -1 - t, &vec), CEED_ERROR_DIMENSION);
+        const std::string message = stored(ceed);
+        if (message.find("CeedVectorCreate(): Length of a CeedVector is -") == std::string::npos) num_other++;
+      }
+    });
+  }
+  for (std::thread &thread : threads) thread.join();
+  EXPECT_EQ(num_other, 0);
 }
 
 /// The general form is file:line in function(): message, with the function that the caller called.

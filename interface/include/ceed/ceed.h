@@ -3,7 +3,10 @@
 ///
 /// Every function returns a CeedErrorType as int, 0 for success, unless it says otherwise. On an error the handler of
 /// the Ceed is called first (default: print and abort; see CeedSetErrorHandler()).
-/// Different threads may use different objects of one Ceed; one object is used by one thread at a time.
+///
+/// Different threads may use different objects of one Ceed. What is only read may be shared: their operators may stand on
+/// the same restrictions, bases, QFunctions, contexts that are not writable (CeedQFunctionSetContextWritable()) and passive
+/// inputs; any thread may copy a handle and drop it. What is written belongs to one thread at a time.
 ///
 /// Vectors of operators: an L-vector holds one value for each degree of freedom of a process; an E-vector holds the
 /// degrees of freedom of each element apart; a Q-vector holds values at the (quadrature or material) points. Lengths,
@@ -198,7 +201,7 @@ typedef int (*CeedErrorHandler)(Ceed, const char *, int, const char *, int, cons
 /// Chooses the `handler`: CeedErrorReturn, CeedErrorStore, CeedErrorAbort, CeedErrorExit, or one's own. A new Ceed has
 /// that of the environment. Error CEED_ERROR_MINOR: it is NULL.
 CEED_EXTERN int CeedSetErrorHandler(Ceed ceed, CeedErrorHandler handler);
-/// The message stored by CeedErrorStore(), or "No error message stored"; valid until the next one. `ceed` may be NULL:
+/// The message stored by CeedErrorStore(), or "No error message stored"; valid until it is reset. `ceed` may be NULL:
 /// the message of this thread that came without a Ceed. Never fails.
 CEED_EXTERN int CeedGetErrorMessage(Ceed ceed, const char **err_msg);
 /// Forgets the message that CeedGetErrorMessage() gives, and sets *err_msg to NULL. Never fails.

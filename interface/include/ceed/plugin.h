@@ -12,7 +12,8 @@
 
 #include <ceed/backend.h>
 
-/// Version of this file. A plugin of another version is refused; fields are only appended within one version.
+/// Version of this file: it grows with every change of a struct or of what an entry means. A plugin of another version
+/// is refused.
 #define CEED_PLUGIN_API_VERSION 1u
 
 #ifdef __cplusplus

@@ -54,6 +54,8 @@ Instance::Instance(Ceed ceed_, const Case &c) : ceed(ceed_) {
     }
   }
   ok(CeedBasisCreateTensorH1Lagrange(ceed, c.dim, 1, 2, c.Q_1d, c.quad_mode, weight_basis.out()));
+  for (const Values &values : c.passive) passive.push_back(make_vector(ceed, values));
+  make_qfunction(c);
   make_operator(c);
 }
 
@@ -66,12 +68,19 @@ Instance::Instance(const Instance &other, const Case &c) : ceed(other.ceed) {
     if (basis) ok(CeedBasisReferenceCopy(basis, bases.back().address()));
   }
   ok(CeedBasisReferenceCopy(other.weight_basis, weight_basis.address()));
+  for (std::size_t i = 0; i < c.passive.size(); i++) {
+    passive.emplace_back();
+    if (is_output(c, static_cast<int>(i))) {
+      passive.back() = make_vector(ceed, c.passive[i]);
+    } else {
+      ok(CeedVectorReferenceCopy(other.passive[i], passive.back().address()));
+    }
+  }
+  ok(CeedQFunctionReferenceCopy(other.qf, qf.address()));
   make_operator(c);
 }
 
-void Instance::make_operator(const Case &c) {
-  for (const Values &values : c.passive) passive.push_back(make_vector(ceed, values));
-
+void Instance::make_qfunction(const Case &c) {
   ok(CeedQFunctionContextCreate(ceed, context.out()));
   ok(CeedQFunctionContextSetData(context, CEED_MEM_HOST, CEED_COPY_VALUES, sizeof c.mix,
                                  const_cast<MixContext *>(&c.mix)));
@@ -80,7 +89,9 @@ void Instance::make_operator(const Case &c) {
   for (const Field &field : c.outputs) ok(CeedQFunctionAddOutput(qf, field.name.c_str(), c.size(field), field.mode));
   ok(CeedQFunctionSetContext(qf, context));
   ok(CeedQFunctionSetContextWritable(qf, false));
+}
 
+void Instance::make_operator(const Case &c) {
   if (c.at_points) {
     ok(CeedOperatorCreateAtPoints(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
   } else {

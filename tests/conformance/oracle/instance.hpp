@@ -13,7 +13,7 @@ namespace hg::test {
 /// The operator of a case on a backend, with what it stands on.
 struct Instance {
   Instance(Ceed ceed, const Case &c);
-  /// Another operator of the same case on the same restrictions and bases; all else is its own.
+  /// Another operator of the same case, on the same restrictions, bases, QFunction and passive inputs.
   Instance(const Instance &other, const Case &c);
   /// Tells the operator of moved points.
   void set_points(const Case &c);
@@ -30,6 +30,7 @@ struct Instance {
   Operator op;
 
  private:
+  void make_qfunction(const Case &c);
   void make_operator(const Case &c);
 };
 
