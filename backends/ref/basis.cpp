@@ -258,37 +258,45 @@ int basis_destroy(CeedBasis basis) {
   return CEED_ERROR_SUCCESS;
 }
 
-/// Host arrays of the vectors of an application for a scope; `error` tells whether all were granted.
+/// Host arrays of the vectors of an application for a scope; those of vectors that are NULL are not asked for. An empty
+/// vector's array may be NULL, and is given back all the same.
 class Arrays {
  public:
-  Arrays(CeedTransposeMode t_mode, bool add, CeedVector x_ref, CeedVector u, CeedVector v)
-      : x_ref_(x_ref), u_(u), v_(v) {
-    if (u_ != nullptr) error = CeedVectorGetArrayRead(u_, CEED_MEM_HOST, &u_array);
-    if (error == CEED_ERROR_SUCCESS && x_ref_ != nullptr) {
-      error = CeedVectorGetArrayRead(x_ref_, CEED_MEM_HOST, &x_ref_array);
-    }
-    if (error != CEED_ERROR_SUCCESS) return;
-    error =
-        add ? CeedVectorGetArray(v_, CEED_MEM_HOST, &v_array) : CeedVectorGetArrayWrite(v_, CEED_MEM_HOST, &v_array);
-    if (error != CEED_ERROR_SUCCESS || t_mode == CEED_NOTRANSPOSE || add) return;
-    CeedSize length = 0;
-    error = CeedVectorGetLength(v_, &length);
-    std::fill_n(v_array, length, 0.0);
-  }
+  Arrays() = default;
   Arrays(const Arrays &) = delete;
   Arrays &operator=(const Arrays &) = delete;
-  ~Arrays() {
-    if (v_array != nullptr) CeedVectorRestoreArray(v_, &v_array);
-    if (x_ref_array != nullptr) CeedVectorRestoreArrayRead(x_ref_, &x_ref_array);
-    if (u_array != nullptr) CeedVectorRestoreArrayRead(u_, &u_array);
+  ~Arrays() { release(); }
+
+  int get(CeedTransposeMode t_mode, bool add, CeedVector x_ref, CeedVector u, CeedVector v) {
+    if (u != nullptr) CeedCallBackend(CeedVectorGetArrayRead(u, CEED_MEM_HOST, &u_array));
+    u_ = u;
+    if (x_ref != nullptr) CeedCallBackend(CeedVectorGetArrayRead(x_ref, CEED_MEM_HOST, &x_ref_array));
+    x_ref_ = x_ref;
+    CeedCallBackend(add ? CeedVectorGetArray(v, CEED_MEM_HOST, &v_array)
+                        : CeedVectorGetArrayWrite(v, CEED_MEM_HOST, &v_array));
+    v_ = v;
+    if (t_mode == CEED_NOTRANSPOSE || add) return CEED_ERROR_SUCCESS;
+    CeedSize length = 0;
+    CeedCallBackend(CeedVectorGetLength(v, &length));
+    std::fill_n(v_array, length, 0.0);
+    return CEED_ERROR_SUCCESS;
+  }
+
+  /// Gives all of them back. The first error, if any.
+  int release() {
+    int first = CEED_ERROR_SUCCESS;
+    const auto keep = [&](int code) { first = first != CEED_ERROR_SUCCESS ? first : code; };
+    if (v_ != nullptr) keep(CeedVectorRestoreArray(std::exchange(v_, nullptr), &v_array));
+    if (x_ref_ != nullptr) keep(CeedVectorRestoreArrayRead(std::exchange(x_ref_, nullptr), &x_ref_array));
+    if (u_ != nullptr) keep(CeedVectorRestoreArrayRead(std::exchange(u_, nullptr), &u_array));
+    return first;
   }
 
   const CeedScalar *u_array = nullptr, *x_ref_array = nullptr;
   CeedScalar *v_array = nullptr;
-  int error = CEED_ERROR_SUCCESS;
 
  private:
-  CeedVector x_ref_, u_, v_;
+  CeedVector x_ref_ = nullptr, u_ = nullptr, v_ = nullptr;  ///< whose arrays are held
 };
 
 int basis_apply(CeedBasis basis, CeedInt num_elem, CeedTransposeMode t_mode, CeedEvalMode eval_mode, CeedVector u,
@@ -296,8 +304,8 @@ int basis_apply(CeedBasis basis, CeedInt num_elem, CeedTransposeMode t_mode, Cee
   ElementBasis *b;
   CeedCallBackend(CeedBasisGetData(basis, &b));
   const bool is_weight = eval_mode == CEED_EVAL_WEIGHT;
-  const Arrays arrays(t_mode, add, nullptr, is_weight ? nullptr : u, v);
-  CeedCallBackend(arrays.error);
+  Arrays arrays;
+  CeedCallBackend(arrays.get(t_mode, add, nullptr, is_weight ? nullptr : u, v));
   const CeedSize Q = b->num_quadrature_points(), at_nodes = static_cast<CeedSize>(b->num_nodes()) * b->num_comp();
   const CeedSize at_points = Q * b->num_comp() * b->q_comp(eval_mode);
   for (CeedInt e = 0; e < num_elem; e++) {
@@ -309,7 +317,7 @@ int basis_apply(CeedBasis basis, CeedInt num_elem, CeedTransposeMode t_mode, Cee
       b->apply_transpose_add(eval_mode, arrays.u_array + e * at_points, arrays.v_array + e * at_nodes);
     }
   }
-  return CEED_ERROR_SUCCESS;
+  return arrays.release();
 }
 
 int basis_apply_at_points(CeedBasis basis, CeedInt num_elem, const CeedInt *num_points, CeedTransposeMode t_mode,
@@ -317,8 +325,8 @@ int basis_apply_at_points(CeedBasis basis, CeedInt num_elem, const CeedInt *num_
   ElementBasis *b;
   CeedCallBackend(CeedBasisGetData(basis, &b));
   const bool is_weight = eval_mode == CEED_EVAL_WEIGHT;
-  const Arrays arrays(t_mode, add, is_weight ? nullptr : x_ref, is_weight ? nullptr : u, v);
-  CeedCallBackend(arrays.error);
+  Arrays arrays;
+  CeedCallBackend(arrays.get(t_mode, add, is_weight ? nullptr : x_ref, is_weight ? nullptr : u, v));
   const CeedSize at_nodes = static_cast<CeedSize>(b->num_nodes()) * b->num_comp();
   const CeedSize at_a_point = static_cast<CeedSize>(b->num_comp()) * b->q_comp(eval_mode);
   CeedSize first = 0;  // points of the elements before this one
@@ -336,7 +344,7 @@ int basis_apply_at_points(CeedBasis basis, CeedInt num_elem, const CeedInt *num_
                                        arrays.v_array + e * at_nodes);
     }
   }
-  return CEED_ERROR_SUCCESS;
+  return arrays.release();
 }
 
 }  // namespace

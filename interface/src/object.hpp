@@ -87,10 +87,9 @@ class Ref {
 template <typename T>
 void reference_copy(T *object, T **copy) {
   deref(object, "handle to copy");
-  reference(object);
-  T *old = *copy;
-  *copy = object;
-  if (old != nullptr) dereference(old);
+  Ref<T> held(object);
+  if (*copy != nullptr) dereference(*copy);  // refused where it is lent out: then *copy stays
+  *copy = held.release();
 }
 
 /// Body of every Ceed*Destroy.

@@ -17,6 +17,7 @@ hg::Ref<CeedOperator_private> create(Ceed ceed) {
 hg::Ref<CeedOperator_private> create_single(Ceed ceed, CeedQFunction qf, bool is_at_points) {
   hg::deref(qf, "QFunction of the operator");
   hg::require(!qf->is_sentinel, CEED_ERROR_MINOR, "The operator's QFunction is CEED_QFUNCTION_NONE; expected a QFunction");
+  hg::require_gallery_fields(*qf);
   auto op = create(ceed);
   op->is_at_points = is_at_points;
   op->qf = hg::Ref<CeedQFunction_private>(qf);
@@ -38,6 +39,12 @@ void require_composite(const CeedOperator_private &op) {
               [&] { return hg::text("CeedOperator '%s' is not composite", op.shown_name()); });
 }
 
+/// Whether `wanted` is the operator or in it.
+bool contains(const CeedOperator_private &op, const CeedOperator_private &wanted) {
+  return &op == &wanted || std::any_of(op.sub_list.begin(), op.sub_list.end(),
+                                       [&](const CeedOperator sub) { return contains(*sub, wanted); });
+}
+
 void require_single(const CeedOperator_private &op) {
   hg::require(!op.is_composite, CEED_ERROR_MINOR, [&] {
     return hg::text("CeedOperator '%s' is composite; ask its sub-operators", op.shown_name());
@@ -51,6 +58,7 @@ CeedOperator_private::~CeedOperator_private() {
 }
 
 void CeedOperator_private::view(FILE *stream, bool with_fields) const {
+  hg::require(stream != nullptr, CEED_ERROR_MINOR, "CeedOperatorView: the stream is NULL; expected an open file");
   const hg::Lines line(stream, num_view_tabs);
   line(0, "%sCeedOperator%s%s", is_composite ? "Composite " : "", *full_name() == '\0' ? "" : " - ", full_name());
   if (!is_composite) {
@@ -132,9 +140,11 @@ int CeedOperatorCompositeAddSub(CeedOperator composite_op, CeedOperator sub_op) 
       return hg::text("CeedOperator '%s' takes no more sub-operators after it has been used",
                       composite_op->shown_name());
     });
-    hg::require(sub_op != composite_op, CEED_ERROR_MINOR, [&] {
-      return hg::text("CeedOperator '%s' cannot be its own sub-operator", composite_op->shown_name());
+    hg::require(!contains(*sub_op, *composite_op), CEED_ERROR_MINOR, [&] {
+      return hg::text("CeedOperator '%s' cannot be its own sub-operator, nor one of a sub-operator",
+                      composite_op->shown_name());
     });
+    composite_op->sub_list.reserve(composite_op->subs.size() + 1);
     composite_op->subs.emplace_back(sub_op);
     composite_op->sub_list.push_back(sub_op);
   });
@@ -157,6 +167,9 @@ int CeedOperatorCompositeGetSubList(CeedOperator op, CeedOperator **sub_operator
 int CeedOperatorCompositeGetSubByName(CeedOperator op, const char *op_name, CeedOperator *sub_op) {
   return hg::guard(hg::ceed_of(op), [&] {
     require_composite(hg::deref(op, "CeedOperator"));
+    hg::require(op_name != nullptr, CEED_ERROR_MINOR, [&] {
+      return hg::text("CeedOperator '%s': the name of the sub-operator is NULL; expected text", op->shown_name());
+    });
     *sub_op = nullptr;
     for (const CeedOperator sub : op->sub_list) {
       if (sub->name == op_name) {

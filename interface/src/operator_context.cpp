@@ -71,6 +71,9 @@ int CeedOperatorGetContext(CeedOperator op, CeedQFunctionContext *ctx) {
 int CeedOperatorGetContextFieldLabel(CeedOperator op, const char *field_name, CeedContextFieldLabel *field_label) {
   return hg::guard(hg::ceed_of(op), [&] {
     hg::deref(op, "CeedOperator");
+    require(field_name != nullptr, CEED_ERROR_MINOR, [&] {
+      return text("CeedOperator '%s': the name of the context field is NULL; expected text", op->shown_name());
+    });
     if (!op->is_composite) {
       *field_label = own_label(*op, field_name);
       return;

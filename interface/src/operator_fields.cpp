@@ -147,6 +147,17 @@ T *single_active(CeedOperator op, bool from_inputs, hg::Ref<T> CeedOperatorField
   return found;
 }
 
+/// The ones of the inputs and of the outputs, where they are asked for: both, or none where one is missing.
+template <typename T>
+void hand_out_active(CeedOperator op, hg::Ref<T> CeedOperatorField_private::*member, const char *what, T **input,
+                     T **output) {
+  hg::Ref<T> of_inputs, of_outputs;
+  if (input != nullptr) of_inputs = hg::Ref<T>(single_active(op, true, member, what));
+  if (output != nullptr) of_outputs = hg::Ref<T>(single_active(op, false, member, what));
+  if (input != nullptr) *input = of_inputs.release();
+  if (output != nullptr) *output = of_outputs.release();
+}
+
 }  // namespace
 
 namespace hg {
@@ -204,13 +215,10 @@ const CeedProgram &program_of(CeedOperator_private &op) {
       if (ops.destroy != nullptr) check(ops.destroy(&op));
     }
     op.program = std::move(lowered);
-    op.is_program_stale = false;
-    if (!op.is_known_to_backend && ops.create != nullptr) {
-      const int code = ops.create(&op, &op.program->view());
-      op.is_program_stale = code != CEED_ERROR_SUCCESS;  // then the next use tries again
-      check(code);
-    }
+    op.is_program_stale = true;  // until the backend has taken it: where it fails, the next use tries again
+    if (!op.is_known_to_backend && ops.create != nullptr) check(ops.create(&op, &op.program->view()));
     op.is_known_to_backend = true;
+    op.is_program_stale = false;
   }
   return op.program->view();
 }
@@ -294,8 +302,8 @@ int CeedOperatorSetField(CeedOperator op, const char *field_name, CeedElemRestri
 int CeedOperatorAtPointsSetPoints(CeedOperator op, CeedElemRestriction rstr_points, CeedVector point_coords) {
   return hg::guard(hg::ceed_of(op), [&] {
     hg::deref(op, "CeedOperator");
-    hg::deref(rstr_points, "restriction of the points");
-    hg::deref(point_coords, "vector of the points");
+    hg::deref_restriction(rstr_points);
+    hg::deref_vector(point_coords, "vector of the points");
     require(op->is_at_points, CEED_ERROR_MINOR, [&] {
       return text("CeedOperator '%s' is not at points; create it with CeedOperatorCreateAtPoints()", op->shown_name());
     });
@@ -307,6 +315,8 @@ int CeedOperatorAtPointsSetPoints(CeedOperator op, CeedElemRestriction rstr_poin
                   "; the restriction expects %" CeedSize_FMT " or more",
                   op->shown_name(), point_coords->length, rstr_points->l_size);
     });
+    require_same_family(*op, rstr_points, "points");
+    require_same_family(*op, point_coords, "points");
     agree(op->num_elem, rstr_points->num_elem, *op, "points", "elements");
     op->points_rstr = hg::Ref(rstr_points);
     op->points = hg::Ref(point_coords);
@@ -343,6 +353,9 @@ int CeedOperatorGetFields(CeedOperator op, CeedInt *num_input_fields, CeedOperat
 int CeedOperatorGetFieldByName(CeedOperator op, const char *field_name, CeedOperatorField *op_field) {
   return hg::guard(hg::ceed_of(op), [&] {
     hg::deref(op, "CeedOperator");
+    require(field_name != nullptr, CEED_ERROR_MINOR, [&] {
+      return text("CeedOperator '%s': the name of the field is NULL; expected text", op->shown_name());
+    });
     *op_field = nullptr;
     for (const auto *list : {&op->input_list, &op->output_list}) {
       for (const CeedOperatorField field : *list) {
@@ -402,12 +415,7 @@ int CeedOperatorHasTensorBases(CeedOperator op, bool *has_tensor_bases) {
 
 int CeedOperatorGetActiveBases(CeedOperator op, CeedBasis *active_input_basis, CeedBasis *active_output_basis) {
   return hg::guard(hg::ceed_of(op), [&] {
-    if (active_input_basis != nullptr) {
-      *active_input_basis = hg::Ref(single_active(op, true, &CeedOperatorField_private::basis, "basis")).release();
-    }
-    if (active_output_basis != nullptr) {
-      *active_output_basis = hg::Ref(single_active(op, false, &CeedOperatorField_private::basis, "basis")).release();
-    }
+    hand_out_active(op, &CeedOperatorField_private::basis, "basis", active_input_basis, active_output_basis);
   });
 }
 
@@ -418,12 +426,7 @@ int CeedOperatorGetActiveBasis(CeedOperator op, CeedBasis *active_basis) {
 int CeedOperatorGetActiveElemRestrictions(CeedOperator op, CeedElemRestriction *active_input_rstr,
                                           CeedElemRestriction *active_output_rstr) {
   return hg::guard(hg::ceed_of(op), [&] {
-    if (active_input_rstr != nullptr) {
-      *active_input_rstr = hg::Ref(single_active(op, true, &CeedOperatorField_private::rstr, "restriction")).release();
-    }
-    if (active_output_rstr != nullptr) {
-      *active_output_rstr = hg::Ref(single_active(op, false, &CeedOperatorField_private::rstr, "restriction")).release();
-    }
+    hand_out_active(op, &CeedOperatorField_private::rstr, "restriction", active_input_rstr, active_output_rstr);
   });
 }
 

@@ -59,6 +59,22 @@ hg::Ref<CeedQFunction_private> create(Ceed ceed, CeedInt vec_length, CeedQFuncti
   return qf;
 }
 
+/// Handle -> QFunction that can be changed and applied; NULL and CEED_QFUNCTION_NONE are errors.
+CeedQFunction_private &deref_qfunction(CeedQFunction qf) {
+  hg::deref(qf, "CeedQFunction");
+  hg::require(!qf->is_sentinel, CEED_ERROR_INCOMPATIBLE,
+              "CeedQFunction is CEED_QFUNCTION_NONE, which does nothing; expected one that was created");
+  return *qf;
+}
+
+/// Appends a field whose checks are done: all of it, or nothing where memory ends.
+void append(std::vector<std::unique_ptr<CeedQFunctionField_private>> &fields, std::vector<CeedQFunctionField> &list,
+            std::unique_ptr<CeedQFunctionField_private> field) {
+  list.reserve(list.size() + 1);
+  fields.push_back(std::move(field));
+  list.push_back(fields.back().get());
+}
+
 /// Checks that belong to inputs and outputs alike; returns the new field.
 std::unique_ptr<CeedQFunctionField_private> new_field(const CeedQFunction_private &qf, const char *field_name,
                                                       CeedInt size, CeedEvalMode eval_mode) {
@@ -101,6 +117,24 @@ int find_field(const std::vector<CeedQFunctionField> &fields, std::string_view n
     if (fields[i]->name == name) return static_cast<int>(i);
   }
   return -1;
+}
+
+// The identities take u and give v, the scales take u and a scale besides. With n the size of u, a scale and v have n
+// values at a point too; but one in "Scale (scalar)" and "Identity to scalar".
+void require_gallery_fields(const CeedQFunction_private &qf) {
+  if (!qf.counts_components) return;
+  const bool is_scale = qf.gallery_name.starts_with("Scale");
+  const CeedInt n = qf.input_list.empty() ? 1 : qf.input_list[0]->size;
+  const auto require_field = [&](const std::vector<CeedQFunctionField> &fields, std::size_t i, CeedInt size,
+                                 const char *what) {
+    require(i < fields.size() && fields[i]->size >= size, CEED_ERROR_INCOMPLETE, [&] {
+      return text("QFunction '%s': %s %zu %s; expected a field of size %" CeedInt_FMT, qf.gallery_name.c_str(), what, i,
+                  i < fields.size() ? "is too small" : "was not added", size);
+    });
+  };
+  require_field(qf.input_list, 0, n, "input");
+  if (is_scale) require_field(qf.input_list, 1, qf.gallery_name == "Scale" ? n : 1, "input");
+  require_field(qf.output_list, 0, qf.gallery_name == "Identity to scalar" ? 1 : n, "output");
 }
 
 }  // namespace hg
@@ -196,7 +230,7 @@ int CeedQFunctionDestroy(CeedQFunction *qf) {
 
 int CeedQFunctionAddInput(CeedQFunction qf, const char *field_name, CeedInt size, CeedEvalMode eval_mode) {
   return hg::guard(hg::ceed_of(qf), [&] {
-    hg::deref(qf, "CeedQFunction");
+    deref_qfunction(qf);
     auto field = new_field(*qf, field_name, size, eval_mode);
     hg::require(eval_mode != CEED_EVAL_WEIGHT || size == 1, CEED_ERROR_DIMENSION, [&] {
       return hg::text("QFunction field '%s' of mode CEED_EVAL_WEIGHT: size is %" CeedInt_FMT "; expected 1", field_name,
@@ -205,28 +239,26 @@ int CeedQFunctionAddInput(CeedQFunction qf, const char *field_name, CeedInt size
     if (qf->counts_components && qf->inputs.empty()) {
       hg::check(CeedQFunctionContextSetData(qf->context.get(), CEED_MEM_HOST, CEED_COPY_VALUES, sizeof size, &size));
     }
-    qf->input_list.push_back(field.get());
-    qf->inputs.push_back(std::move(field));
+    append(qf->inputs, qf->input_list, std::move(field));
   });
 }
 
 int CeedQFunctionAddOutput(CeedQFunction qf, const char *field_name, CeedInt size, CeedEvalMode eval_mode) {
   return hg::guard(hg::ceed_of(qf), [&] {
-    hg::deref(qf, "CeedQFunction");
+    deref_qfunction(qf);
     auto field = new_field(*qf, field_name, size, eval_mode);
     hg::require(eval_mode != CEED_EVAL_WEIGHT, CEED_ERROR_DIMENSION, [&] {
       return hg::text("QFunction field '%s' is an output of mode CEED_EVAL_WEIGHT, which is for inputs alone",
                       field_name);
     });
-    qf->output_list.push_back(field.get());
-    qf->outputs.push_back(std::move(field));
+    append(qf->outputs, qf->output_list, std::move(field));
   });
 }
 
 int CeedQFunctionGetFields(CeedQFunction qf, CeedInt *num_input_fields, CeedQFunctionField **input_fields,
                            CeedInt *num_output_fields, CeedQFunctionField **output_fields) {
   return hg::guard(hg::ceed_of(qf), [&] {
-    hg::deref(qf, "CeedQFunction").is_immutable = true;
+    deref_qfunction(qf).is_immutable = true;
     if (num_input_fields != nullptr) *num_input_fields = static_cast<CeedInt>(qf->input_list.size());
     if (input_fields != nullptr) *input_fields = qf->input_list.data();
     if (num_output_fields != nullptr) *num_output_fields = static_cast<CeedInt>(qf->output_list.size());
@@ -236,21 +268,21 @@ int CeedQFunctionGetFields(CeedQFunction qf, CeedInt *num_input_fields, CeedQFun
 
 int CeedQFunctionSetContext(CeedQFunction qf, CeedQFunctionContext ctx) {
   return hg::guard(hg::ceed_of(qf), [&] {
-    hg::deref(qf, "CeedQFunction").context = hg::Ref<CeedQFunctionContext_private>(ctx);
+    deref_qfunction(qf).context = hg::Ref<CeedQFunctionContext_private>(ctx);
   });
 }
 
 int CeedQFunctionSetContextWritable(CeedQFunction qf, bool is_writable) {
-  return hg::guard(hg::ceed_of(qf), [&] { hg::deref(qf, "CeedQFunction").is_context_writable = is_writable; });
+  return hg::guard(hg::ceed_of(qf), [&] { deref_qfunction(qf).is_context_writable = is_writable; });
 }
 
 int CeedQFunctionSetUserFlopsEstimate(CeedQFunction qf, CeedSize flops) {
   return hg::guard(hg::ceed_of(qf), [&] {
     hg::require(flops >= 0, CEED_ERROR_INCOMPATIBLE, [&] {
       return hg::text("QFunction '%s': flops estimate is %" CeedSize_FMT "; expected at least 0",
-                      hg::deref(qf, "CeedQFunction").kernel_name.c_str(), flops);
+                      deref_qfunction(qf).kernel_name.c_str(), flops);
     });
-    hg::deref(qf, "CeedQFunction").user_flops = flops;
+    deref_qfunction(qf).user_flops = flops;
   });
 }
 
@@ -284,7 +316,7 @@ Ceed CeedQFunctionReturnCeed(CeedQFunction qf) { return hg::ceed_of(qf); }
 
 int CeedQFunctionApply(CeedQFunction qf, CeedInt Q, CeedVector *u, CeedVector *v) {
   return hg::guard(hg::ceed_of(qf), [&] {
-    hg::deref(qf, "CeedQFunction");
+    deref_qfunction(qf);
     hg::require(Q >= 0 && Q % qf->vec_length == 0, CEED_ERROR_DIMENSION, [&] {
       return hg::text("QFunction '%s': %" CeedInt_FMT " points; expected a multiple of its vec_length %" CeedInt_FMT,
                       qf->kernel_name.c_str(), Q, qf->vec_length);
@@ -292,17 +324,18 @@ int CeedQFunctionApply(CeedQFunction qf, CeedInt Q, CeedVector *u, CeedVector *v
     const auto check_lengths = [&](const std::vector<CeedQFunctionField> &fields, const CeedVector *vectors) {
       for (std::size_t i = 0; i < fields.size(); i++) {
         const CeedSize needed = static_cast<CeedSize>(Q) * fields[i]->size;
-        const CeedSize length = hg::deref(vectors[i], "vector of a QFunction field").length;
+        const CeedSize length = hg::deref_vector(vectors[i], "vector of a QFunction field").length;
         hg::require(length >= needed, CEED_ERROR_DIMENSION, [&] {
           return hg::text("QFunction '%s' field '%s': vector of length %" CeedSize_FMT "; expected at least %" CeedSize_FMT,
                           qf->kernel_name.c_str(), fields[i]->name.c_str(), length, needed);
         });
       }
     };
+    hg::require_gallery_fields(*qf);
     check_lengths(qf->input_list, u);
     check_lengths(qf->output_list, v);
     qf->is_immutable = true;
-    hg::check(qf->ceed->ops.qfunction.apply(qf, Q, u, v));
+    if (Q > 0) hg::check(qf->ceed->ops.qfunction.apply(qf, Q, u, v));
   });
 }
 
@@ -384,7 +417,7 @@ int CeedQFunctionGetData(CeedQFunction qf, void *data) {
 }
 
 int CeedQFunctionSetData(CeedQFunction qf, void *data) {
-  return hg::guard(hg::ceed_of(qf), [&] { hg::deref(qf, "CeedQFunction").data = data; });
+  return hg::guard(hg::ceed_of(qf), [&] { deref_qfunction(qf).data = data; });
 }
 
 int CeedQFunctionIsImmutable(CeedQFunction qf, bool *is_immutable) {
@@ -392,7 +425,7 @@ int CeedQFunctionIsImmutable(CeedQFunction qf, bool *is_immutable) {
 }
 
 int CeedQFunctionSetImmutable(CeedQFunction qf) {
-  return hg::guard(hg::ceed_of(qf), [&] { hg::deref(qf, "CeedQFunction").is_immutable = true; });
+  return hg::guard(hg::ceed_of(qf), [&] { deref_qfunction(qf).is_immutable = true; });
 }
 
 int CeedQFunctionFieldGetName(CeedQFunctionField qf_field, const char **field_name) {

@@ -44,5 +44,7 @@ namespace hg {
 
 /// Index of the field with that name, or -1.
 int find_field(const std::vector<CeedQFunctionField> &fields, std::string_view name);
+/// Throws unless a QFunction of the gallery that leaves its fields to the user has those that it reads and writes.
+void require_gallery_fields(const CeedQFunction_private &qf);
 
 }  // namespace hg
