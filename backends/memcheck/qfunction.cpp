@@ -158,6 +158,8 @@ int with_stand_in(CeedQFunction qf, F &&work) {
     CeedCallBackend(checked.create(qf));
     const InParent in_parent;
     return checked.finish(qf, work(checked));
+  } catch (const std::bad_alloc &) {
+    return CeedError(CeedQFunctionReturnCeed(qf), CEED_ERROR_BACKEND, "Out of memory");
   } catch (const std::exception &error) {
     return CeedError(CeedQFunctionReturnCeed(qf), CEED_ERROR_BACKEND, "%s", error.what());
   }

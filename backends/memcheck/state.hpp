@@ -33,9 +33,10 @@ struct State {
   std::unordered_map<CeedQFunctionContext, std::vector<unsigned char>> contexts;  ///< data as the readers got them
   std::unordered_map<CeedElemRestriction, std::uint64_t> restrictions;            ///< hash of the tables
 
+  /// Made with the vector, so that none of its accesses need memory for it.
   VectorGuard &guard_of(CeedVector vec) {
     const std::lock_guard lock(mutex);
-    return vectors[vec];
+    return vectors.find(vec)->second;
   }
 };
 

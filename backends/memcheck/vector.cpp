@@ -44,9 +44,9 @@ int check_bounds(CeedVector vec, const GuardedArray &array) {
 
 /// Hands out a copy of `values`.
 CeedScalar *begin(CeedVector vec, VectorGuard &guard, Access access, const CeedScalar *values) {
+  guard.active = std::make_unique<GuardedArray>(values, length_of(vec));
   guard.access = access;
   guard.is_backends = InParent::is_now();
-  guard.active = std::make_unique<GuardedArray>(values, length_of(vec));
   guard.retired.reset();  // after the new one was made, so that its place is another
   return guard.active->data();
 }
@@ -56,6 +56,19 @@ void end(VectorGuard &guard) {
   guard.active->retire();
   guard.retired = std::move(guard.active);
   guard.access = Access::none;
+}
+
+int create(CeedVector vec) {
+  CeedCallBackend(parent().vector.create(vec));
+  State &state = state_of(CeedVectorReturnCeed(vec));
+  try {
+    const std::lock_guard lock(state.mutex);
+    state.vectors.try_emplace(vec);
+  } catch (...) {
+    parent().vector.destroy(vec);
+    throw;
+  }
+  return CEED_ERROR_SUCCESS;
 }
 
 int get_array_read(CeedVector vec, CeedMemType mem_type, const CeedScalar **array) {
@@ -152,6 +165,7 @@ int destroy(CeedVector vec) {
 }  // namespace
 
 void fill_vector_ops(CeedVectorOps &ops) {
+  ops.create = create;
   ops.destroy = destroy;
   ops.set_array = set_array;
   ops.take_array = take_array;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "basis.hpp"
@@ -28,18 +29,23 @@ int wall(Ceed ceed, F &&f) {
     return CEED_ERROR_SUCCESS;
   } catch (const Failed &failed) {
     return failed.code > 0 ? CEED_ERROR_BACKEND : failed.code;
+  } catch (const std::bad_alloc &) {
+    return CeedError(ceed, CEED_ERROR_BACKEND, "Out of memory");
   } catch (const std::exception &error) {
     return CeedError(ceed, CEED_ERROR_BACKEND, "%s", error.what());
   }
 }
 
-/// A host array for a scope.
+/// A host array for a scope. release() ends it before, where an error still counts.
 class Reader {
  public:
   explicit Reader(CeedVector vec) : vec_(vec) { chk(CeedVectorGetArrayRead(vec, CEED_MEM_HOST, &array_)); }
   Reader(const Reader &) = delete;
   Reader &operator=(const Reader &) = delete;
-  ~Reader() { CeedVectorRestoreArrayRead(vec_, &array_); }
+  ~Reader() {
+    if (vec_ != nullptr) CeedVectorRestoreArrayRead(vec_, &array_);
+  }
+  void release() { chk(CeedVectorRestoreArrayRead(std::exchange(vec_, nullptr), &array_)); }
   const CeedScalar *data() const { return array_; }
 
  private:
@@ -56,7 +62,10 @@ class Writer {
   }
   Writer(const Writer &) = delete;
   Writer &operator=(const Writer &) = delete;
-  ~Writer() { CeedVectorRestoreArray(vec_, &array_); }
+  ~Writer() {
+    if (vec_ != nullptr) CeedVectorRestoreArray(vec_, &array_);
+  }
+  void release() { chk(CeedVectorRestoreArray(std::exchange(vec_, nullptr), &array_)); }
   CeedScalar *data() const { return array_; }
 
  private:
@@ -70,7 +79,10 @@ class ContextData {
   explicit ContextData(CeedQFunction qf) : qf_(qf) { chk(CeedQFunctionGetContextData(qf, CEED_MEM_HOST, &data_)); }
   ContextData(const ContextData &) = delete;
   ContextData &operator=(const ContextData &) = delete;
-  ~ContextData() { CeedQFunctionRestoreContextData(qf_, &data_); }
+  ~ContextData() {
+    if (qf_ != nullptr) CeedQFunctionRestoreContextData(qf_, &data_);
+  }
+  void release() { chk(CeedQFunctionRestoreContextData(std::exchange(qf_, nullptr), &data_)); }
   void *data() const { return data_; }
 
  private:
@@ -263,7 +275,7 @@ int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVe
         sinks.push_back(writers[found - written.begin()]->data());
       }
     }
-    const ContextData context(program->qf);
+    ContextData context(program->qf);
     for (CeedInt e = 0; e < program->num_elem; e++) {
       if (loop.num_points(e) == 0) continue;
       loop.set_points(e, points ? points->data() : nullptr);
@@ -272,6 +284,10 @@ int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVe
       loop.call(e, context.data());
       loop.scatter_add(e, sinks);
     }
+    context.release();
+    for (const auto &writer : writers) writer->release();
+    for (const auto &source : sources) source->release();
+    if (points) points->release();
   });
 }
 
@@ -285,10 +301,10 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
     for (CeedInt s = 0; s < program->num_sources; s++) {
       if (!program->sources[s].is_active) sources[s] = std::make_unique<Reader>(program->sources[s].vec);
     }
-    const Writer assembled(values, Writer::write_only);
+    Writer assembled(values, Writer::write_only);
     CeedScalar *element_values = assembled.data();
     const CeedInt num_in = program->num_active_in, num_out = program->num_active_out;
-    const ContextData context(program->qf);
+    ContextData context(program->qf);
     for (CeedInt e = first_elem; e < first_elem + num_elem; e++) {
       const CeedInt Q = loop.num_points(e), stride = loop.stride(e);
       if (Q == 0) continue;
@@ -322,6 +338,12 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
       });
       element_values += static_cast<std::size_t>(Q) * num_in * num_out;
     }
+    context.release();
+    assembled.release();
+    for (const auto &source : sources) {
+      if (source) source->release();
+    }
+    if (points) points->release();
   });
 }
 

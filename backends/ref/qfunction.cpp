@@ -14,6 +14,8 @@ struct Access {
   Access &operator=(const Access &) = delete;
   ~Access() { release(); }
   int get(CeedInt num_in, CeedInt num_out) {
+    in.reserve(static_cast<std::size_t>(num_in));  // what is lent can be noted
+    out.reserve(static_cast<std::size_t>(num_out));
     for (CeedInt i = 0; i < num_in; i++) {
       const CeedScalar *array = nullptr;
       CeedCallBackend(CeedVectorGetArrayRead(u[i], CEED_MEM_HOST, &array));

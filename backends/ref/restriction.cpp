@@ -94,11 +94,11 @@ int with_arrays(CeedTransposeMode t_mode, CeedVector u, CeedVector ru, F &&f) {
   const CeedScalar *input = nullptr;
   CeedScalar *output = nullptr;
   CeedCallBackend(CeedVectorGetArrayRead(u, CEED_MEM_HOST, &input));
-  const int code = t_mode == CEED_TRANSPOSE ? CeedVectorGetArray(ru, CEED_MEM_HOST, &output)
-                                            : CeedVectorGetArrayWrite(ru, CEED_MEM_HOST, &output);
+  int code = t_mode == CEED_TRANSPOSE ? CeedVectorGetArray(ru, CEED_MEM_HOST, &output)
+                                      : CeedVectorGetArrayWrite(ru, CEED_MEM_HOST, &output);
   if (code == CEED_ERROR_SUCCESS) {
     f(input, output);
-    CeedCallBackend(CeedVectorRestoreArray(ru, &output));
+    code = CeedVectorRestoreArray(ru, &output);
   }
   CeedCallBackend(CeedVectorRestoreArrayRead(u, &input));
   CeedCallBackend(code);

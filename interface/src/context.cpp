@@ -94,6 +94,7 @@ int add_field(CeedQFunctionContext ctx, const char *name, CeedContextFieldType t
         });
         // Fields may be registered before there are data; then they are checked when they are used.
         if (c.values != nullptr) require_inside(c, label);
+        c.label_list.reserve(c.labels.size() + 1);
         c.labels.push_back(std::move(label));
         c.label_list.push_back(&c.labels.back());
       },

@@ -76,8 +76,8 @@ std::string text(const char *format, ...) {
   return result;
 }
 
-int report(Ceed ceed, const Error &error, const char *function) noexcept {
-  return CeedErrorImpl(ceed, error.where().file, error.where().line, function, error.code(), "%s", error.what());
+int report(Ceed ceed, int code, const char *message, const Where &where, const char *function) noexcept {
+  return CeedErrorImpl(ceed, where.file, where.line, function, code, "%s", message);
 }
 
 }  // namespace hg

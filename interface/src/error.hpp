@@ -66,9 +66,9 @@ inline void check(int code) {
   if (code != CEED_ERROR_SUCCESS) throw Reported{code};
 }
 
-/// Calls the handler of `ceed` (of the process if NULL) with the error; `function` is the entry point that the user
-/// called. Never throws.
-int report(Ceed ceed, const Error &error, const char *function) noexcept;
+/// Calls the handler of `ceed` (of the process if NULL) with an error; `function` is the entry point that the user
+/// called. Never throws and allocates nothing: memory may be what has run out.
+int report(Ceed ceed, int code, const char *message, const Where &where, const char *function) noexcept;
 
 /// What CeedErrorStore() keeps: the last message, of whichever thread. What has been handed out stays where it is until
 /// it is forgotten, so a thread may read it while another one fails.
@@ -93,13 +93,13 @@ int guard(Ceed ceed, F &&f, const char *function = __builtin_FUNCTION()) noexcep
   } catch (const Reported &reported) {
     return reported.code;
   } catch (const Error &error) {
-    return report(ceed, error, function);
+    return report(ceed, error.code(), error.what(), error.where(), function);
   } catch (const std::bad_alloc &) {
-    return report(ceed, Error(CEED_ERROR_MAJOR, "Out of memory"), function);
+    return report(ceed, CEED_ERROR_MAJOR, "Out of memory", Where::current(), function);
   } catch (const std::exception &error) {
-    return report(ceed, Error(CEED_ERROR_MAJOR, error.what()), function);
+    return report(ceed, CEED_ERROR_MAJOR, error.what(), Where::current(), function);
   } catch (...) {
-    return report(ceed, Error(CEED_ERROR_MAJOR, "An exception of unknown type was thrown"), function);
+    return report(ceed, CEED_ERROR_MAJOR, "An exception of unknown type was thrown", Where::current(), function);
   }
 }
 

@@ -1,9 +1,12 @@
 /// Plugin libraries: found, judged, opened, registered.
+#include <dirent.h>
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <set>
 
@@ -50,21 +53,19 @@ void *open_library(const fs::path &path) {
 }
 
 /// Registers what an open library exports. Throws Error with the reason why it is refused.
-const CeedPlugin *register_library(void *handle) {
+void register_library(void *handle, const fs::path &path) {
   const auto entry = reinterpret_cast<CeedPluginEntry>(dlsym(handle, "ceed_plugin_v1"));
   require(entry != nullptr, CEED_ERROR_INCOMPATIBLE, "it does not export the symbol ceed_plugin_v1");
+  const CeedPlugin *plugin = nullptr;
   try {
-    const CeedPlugin *plugin = entry();
-    require(plugin != nullptr, CEED_ERROR_INCOMPATIBLE, "ceed_plugin_v1() returned NULL");
-    register_plugin(*plugin);
-    return plugin;
-  } catch (const Error &) {
-    throw;
+    plugin = entry();
   } catch (const std::exception &error) {
     throw Error(CEED_ERROR_MAJOR, std::string("it threw while loading: ") + error.what());
   } catch (...) {
     throw Error(CEED_ERROR_MAJOR, "it threw while loading");
   }
+  require(plugin != nullptr, CEED_ERROR_INCOMPATIBLE, "ceed_plugin_v1() returned NULL");
+  register_plugin(*plugin, path.string());
 }
 
 /// Opens a plugin and registers it. Throws Error with a message that names the file.
@@ -72,7 +73,7 @@ void load_plugin(const fs::path &path) {
   const std::lock_guard lock(load_mutex());
   const auto refuse = [&](int code, const char *verdict, const char *reason) {
     const std::string message = text("Plugin '%s' %s: %s", path.c_str(), verdict, reason);
-    record_plugin({path.string(), nullptr, message});
+    record_refused(path.string(), message);
     throw Error(code, message);
   };
   if (const std::string reason = why_not_loadable(path); !reason.empty()) {
@@ -88,10 +89,13 @@ void load_plugin(const fs::path &path) {
   int code = CEED_ERROR_SUCCESS;
   std::string reason;
   try {
-    record_plugin({path.string(), register_library(handle), ""});
+    register_library(handle, path);
   } catch (const Error &error) {
     code = error.code();
     reason = error.what();
+  } catch (...) {
+    dlclose(handle);
+    throw;
   }
   if (code == CEED_ERROR_SUCCESS) return;
   dlclose(handle);  // not before an exception of a type of the plugin's own is gone
@@ -102,18 +106,29 @@ void load_plugin(const fs::path &path) {
 void load_or_complain(const fs::path &file, std::set<fs::path> &seen) {
   std::error_code ignored;
   if (!seen.insert(fs::weakly_canonical(file, ignored)).second) return;
+  if (is_registered(file.string())) return;  // an earlier load ended half way
   try {
     load_plugin(file);
+  } catch (const std::bad_alloc &) {
+    throw;
   } catch (const std::exception &error) {
     std::fprintf(stderr, "ceed: %s\n", error.what());
   }
 }
 
 void load_folder(const fs::path &folder, std::set<fs::path> &seen) {
-  std::error_code ignored;
+  // Not by std::filesystem::directory_iterator: libstdc++'s ends the process where memory runs out.
+  struct Close {
+    void operator()(DIR *stream) const noexcept { closedir(stream); }
+  };
+  const std::unique_ptr<DIR, Close> stream(opendir(folder.c_str()));
+  if (!stream) {
+    if (errno == ENOMEM) throw std::bad_alloc();
+    return;
+  }
   std::vector<fs::path> files;
-  for (const auto &file : fs::directory_iterator(folder, ignored)) {
-    if (file.path().extension() == ".so") files.push_back(file.path());
+  while (const dirent *entry = readdir(stream.get())) {
+    if (fs::path(entry->d_name).extension() == ".so") files.push_back(folder / entry->d_name);
   }
   std::sort(files.begin(), files.end());
   for (const auto &file : files) load_or_complain(file, seen);

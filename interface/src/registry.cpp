@@ -82,9 +82,9 @@ void require_complete(const CeedBackendOps &ops, const CeedBackend &backend) {
       {ops.op.apply_add, "op.apply_add"},
       {ops.op.linear_assemble_qfunction, "op.linear_assemble_qfunction"},
   };
-  for (const auto &[is_there, name] : entries) {
-    require(is_there, CEED_ERROR_MAJOR, [&] {
-      return text("Backend does not implement %s, which is not optional (%s)", name, backend.resource);
+  for (const auto &entry : entries) {
+    require(entry.first, CEED_ERROR_MAJOR, [&] {
+      return text("Backend does not implement %s, which is not optional (%s)", entry.second, backend.resource);
     });
   }
 }
@@ -110,26 +110,41 @@ std::vector<RegistryEntry> registry() {
   Registry &registry = the_registry();
   const std::lock_guard lock(registry.mutex);
   if (!registry.is_loaded) {
-    registry.is_loaded = true;
-    for (const CeedPluginEntry entry : built_in_plugins()) {
-      register_plugin(*entry());
-      record_plugin({"", entry(), ""});
+    registry.is_loaded = true;  // before it is so: a plugin may load another one
+    try {
+      for (const CeedPluginEntry entry : built_in_plugins()) {
+        const CeedPlugin *plugin = entry();
+        const bool is_known = std::any_of(registry.plugins.begin(), registry.plugins.end(),
+                                          [&](const PluginRecord &known) { return known.plugin == plugin; });
+        if (!is_known) register_plugin(*plugin, "");
+      }
+      load_plugins_in_search_path();
+    } catch (...) {  // memory has run out: the next call goes on from here
+      registry.is_loaded = false;
+      throw;
     }
-    load_plugins_in_search_path();
   }
   return registry.entries;
 }
 
-void record_plugin(PluginRecord record) {
+void record_refused(std::string path, std::string error) {
   Registry &registry = the_registry();
   const std::lock_guard lock(registry.mutex);
   const bool is_known = std::any_of(registry.plugins.begin(), registry.plugins.end(), [&](const PluginRecord &known) {
-    return known.path == record.path && known.plugin == record.plugin && known.error == record.error;
+    return known.path == path && known.plugin == nullptr && known.error == error;
   });
-  if (!is_known) registry.plugins.push_back(std::move(record));
+  if (!is_known) registry.plugins.push_back({std::move(path), nullptr, std::move(error)});
 }
 
-void register_plugin(const CeedPlugin &plugin) {
+bool is_registered(std::string_view path) {
+  Registry &registry = the_registry();
+  const std::lock_guard lock(registry.mutex);
+  return std::any_of(registry.plugins.begin(), registry.plugins.end(), [&](const PluginRecord &known) {
+    return known.path == path && known.plugin != nullptr;
+  });
+}
+
+void register_plugin(const CeedPlugin &plugin, std::string path) {
   require(plugin.api_version == CEED_PLUGIN_API_VERSION, CEED_ERROR_INCOMPATIBLE, [&] {
     return text("Plugin '%s' is for plugin API version %u; this library has version %u", plugin.name,
                 plugin.api_version, CEED_PLUGIN_API_VERSION);
@@ -165,7 +180,10 @@ void register_plugin(const CeedPlugin &plugin) {
     add(backend.resource, backend);
     for (const char *const *alias = backend.aliases; alias != nullptr && *alias != nullptr; alias++) add(*alias, backend);
   }
+  std::list<PluginRecord> record;
+  record.push_back({std::move(path), &plugin, ""});
   registry.entries = std::move(entries);
+  registry.plugins.splice(registry.plugins.end(), record);
 }
 
 int score_of(const CeedBackend &backend, std::string &reason) {
@@ -277,8 +295,7 @@ int CeedPluginRegister(const CeedPlugin *plugin) {
   return hg::guard(nullptr, [&] {
     hg::require(plugin != nullptr, CEED_ERROR_MINOR, "Plugin is NULL; expected a description");
     hg::registry();
-    hg::register_plugin(*plugin);
-    hg::record_plugin({"", plugin, ""});
+    hg::register_plugin(*plugin, "");
   });
 }
 

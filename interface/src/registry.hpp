@@ -27,10 +27,13 @@ struct PluginRecord {
 
 /// All entries as they are now; loads the plugins on first use.
 std::vector<RegistryEntry> registry();
-/// Adds the backends of a plugin. Throws if its version or a name in it does not fit; then nothing is added.
-void register_plugin(const CeedPlugin &plugin);
-/// Keeps what became of a plugin, for the life of the process.
-void record_plugin(PluginRecord record);
+/// Adds the backends of a plugin and records it with its file. Throws if its version or a name in it does not fit; then
+/// nothing is added.
+void register_plugin(const CeedPlugin &plugin, std::string path);
+/// Keeps why a plugin was refused, for the life of the process.
+void record_refused(std::string path, std::string error);
+/// Whether a plugin of the file is registered.
+bool is_registered(std::string_view path);
 /// The backend for a request: those whose name begins with it, in whole components ("/cpu/self" is a beginning of
 /// "/cpu/self/ref/serial", "/cpu/self/re" is not); of these one with a positive score and the lowest priority. Names
 /// that only libCEED has lead to the nearest of ours. Throws CEED_ERROR_MAJOR with the list of resources where none

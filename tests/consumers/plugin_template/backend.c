@@ -42,10 +42,10 @@ static int apply(CeedElemRestriction rstr, CeedInt first_block, CeedInt num_bloc
   const CeedScalar *u_array = NULL;
   CeedScalar *ru_array = NULL;
   CeedCallBackend(CeedVectorGetArrayRead(u, CEED_MEM_HOST, &u_array));
-  const int code = CeedVectorGetArrayWrite(ru, CEED_MEM_HOST, &ru_array);
+  int code = CeedVectorGetArrayWrite(ru, CEED_MEM_HOST, &ru_array);
   if (code == CEED_ERROR_SUCCESS) {
     gather(map, first_block, num_block, u_array, ru_array);
-    CeedCallBackend(CeedVectorRestoreArray(ru, &ru_array));
+    code = CeedVectorRestoreArray(ru, &ru_array);
   }
   CeedCallBackend(CeedVectorRestoreArrayRead(u, &u_array));
   CeedCallBackend(code);
