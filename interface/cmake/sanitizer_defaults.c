@@ -1,6 +1,6 @@
 // Settings of the sanitizers for every program of ours, so that none need be set in the environment.
 // The leaks named here are of libraries that keep memory to the end of the process.
-__attribute__((visibility("default"))) const char *__asan_default_options(void);
+__attribute__((visibility("default"), weak)) const char *__asan_default_options(void);  // a program may have its own
 __attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
 __attribute__((visibility("default"))) const char *__ubsan_default_options(void);
 

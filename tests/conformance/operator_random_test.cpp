@@ -77,6 +77,15 @@ TEST_P(RandomOperator, AppliesInMixedSpaces) {
   EXPECT_GE(num_tensor, num_cases(10));
 }
 
+TEST_P(RandomOperator, AppliesTensorProductsOfMatrices) {
+  int num_given = 0;
+  for_cases({.has_matrices = true}, num_seeds, [&](const Case &c, Random &random) {
+    check_apply(ceed, c, random);
+    for (const Space &space : c.spaces) num_given += !space.interp_1d.empty();
+  });
+  EXPECT_GE(num_given, num_cases(10));
+}
+
 TEST_P(RandomOperator, AppliesAtPoints) {
   for_cases({.at_points = true}, num_seeds, [&](const Case &c, Random &random) { check_apply(ceed, c, random); });
 }

@@ -1,5 +1,6 @@
 /// @file
-/// Random input that is the same on every machine: a fixed seed, and no distribution of the standard library.
+/// Random input that is the same on every machine: a fixed seed, and no distribution of the standard library. Or input
+/// that bytes decide, for fuzzing.
 #pragma once
 
 #include <ceed.h>
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <numeric>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace hg::test {
@@ -24,17 +26,30 @@ constexpr int num_cases(int all) {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
+  /// Each integer, chance and choice takes a byte; when these are used up, integers are `low` and chances are not
+  /// taken. Real numbers take none. The bytes must outlive this.
+  explicit Random(std::span<const std::uint8_t> bytes) : engine_(0), bytes_(bytes), is_by_bytes_(true) {}
   /// An integer in [low, high].
   CeedInt integer(CeedInt low, CeedInt high) {
     const auto range = static_cast<std::uint64_t>(high - low) + 1;
-    return low + static_cast<CeedInt>(engine_() % range);
+    return low + static_cast<CeedInt>((is_by_bytes_ ? next_byte() : engine_()) % range);
   }
+  /// The next byte, 0 when they are used up.
+  std::uint8_t next_byte() {
+    if (bytes_.empty()) return 0;
+    const std::uint8_t byte = bytes_.front();
+    bytes_ = bytes_.subspan(1);
+    return byte;
+  }
+  bool has_bytes() const { return !bytes_.empty(); }
   /// A number in [low, high).
   CeedScalar real(CeedScalar low = -1, CeedScalar high = 1) {
     const double unit = static_cast<double>(engine_() >> 11) * 0x1.0p-53;
     return static_cast<CeedScalar>(low + (high - low) * unit);
   }
-  bool chance(double probability) { return real(0, 1) < probability; }
+  bool chance(double probability) {
+    return is_by_bytes_ ? next_byte() > 255 - 256 * probability : real(0, 1) < probability;
+  }
   std::vector<CeedScalar> reals(CeedSize count, CeedScalar low = -1, CeedScalar high = 1) {
     std::vector<CeedScalar> values(static_cast<std::size_t>(count));
     for (CeedScalar &value : values) value = real(low, high);
@@ -44,6 +59,14 @@ class Random {
   std::vector<CeedInt> distinct(CeedInt count, CeedInt below) {
     std::vector<CeedInt> all(static_cast<std::size_t>(below));
     std::iota(all.begin(), all.end(), 0);
+    if (is_by_bytes_) {  // one byte for the whole choice
+      for (std::uint64_t i = 0, state = next_byte(); i < static_cast<std::uint64_t>(count); i++) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        std::swap(all[i], all[i + (state >> 33) % (static_cast<std::uint64_t>(below) - i)]);
+      }
+      all.resize(static_cast<std::size_t>(count));
+      return all;
+    }
     for (CeedInt i = 0; i < count; i++) std::swap(all[i], all[integer(i, below - 1)]);
     all.resize(static_cast<std::size_t>(count));
     return all;
@@ -51,6 +74,8 @@ class Random {
 
  private:
   std::mt19937_64 engine_;
+  std::span<const std::uint8_t> bytes_;
+  bool is_by_bytes_ = false;
 };
 
 }  // namespace hg::test

@@ -117,10 +117,18 @@ std::vector<std::vector<Term>> terms(const Case &c, const Field &field, CeedInt 
     }
     return result;
   }
-  Values nodes(space.P_1d);
-  ok(CeedLobattoQuadrature(space.P_1d, nodes.data(), nullptr));
   std::vector<Values> value(c.dim), derivative(c.dim);
-  for (CeedInt d = 0; d < c.dim; d++) lagrange(nodes, c.x[elem][q][d], value[d], derivative[d]);
+  if (!space.interp_1d.empty()) {
+    for (CeedInt d = 0, rest = q; d < c.dim; d++, rest /= c.Q_1d) {
+      const auto row = static_cast<std::ptrdiff_t>(rest % c.Q_1d) * space.P_1d;
+      value[d].assign(space.interp_1d.begin() + row, space.interp_1d.begin() + row + space.P_1d);
+      derivative[d].assign(space.grad_1d.begin() + row, space.grad_1d.begin() + row + space.P_1d);
+    }
+  } else {
+    Values nodes(space.P_1d);
+    ok(CeedLobattoQuadrature(space.P_1d, nodes.data(), nullptr));
+    for (CeedInt d = 0; d < c.dim; d++) lagrange(nodes, c.x[elem][q][d], value[d], derivative[d]);
+  }
   const CeedInt num_directions = field.mode == CEED_EVAL_GRAD ? c.dim : 1;
   for (CeedInt direction = 0; direction < num_directions; direction++) {
     for (CeedInt node = 0; node < space.elem_size; node++) {

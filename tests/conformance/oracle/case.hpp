@@ -15,8 +15,9 @@
 
 namespace hg::test {
 
-/// Nodes of elements in an L-vector, with the Lagrange polynomials on Gauss-Lobatto nodes as basis; or, with P_1d = 0,
-/// with a basis given by its matrices; or, without these, one node for each point and no basis.
+/// Nodes of elements in an L-vector, with the Lagrange polynomials on Gauss-Lobatto nodes, or tensor products of given
+/// matrices, as basis; or, with P_1d = 0, with a basis given by its matrices; or, without these, one node for each
+/// point and no basis.
 struct Space {
   CeedInt num_comp = 1, P_1d = 0;
   CeedInt elem_size = 0, comp_stride = 1;
@@ -31,6 +32,7 @@ struct Space {
   CeedFESpace kind = CEED_FE_SPACE_H1;
   CeedElemTopology topology = CEED_TOPOLOGY_LINE;
   Values interp, derivative;  ///< q_comp by points by nodes, if the basis is given by matrices
+  Values interp_1d, grad_1d;  ///< Q_1d by P_1d, if it is a tensor product of given matrices
 
   bool is_tabulated() const { return !interp.empty(); }
   bool has_basis() const { return P_1d > 0 || is_tabulated(); }
@@ -107,6 +109,8 @@ struct CaseWishes {
   int max_comp = 9;
   bool is_oriented = false;  ///< elements have orientations, and come in blocks
   bool mixes_spaces = false;  ///< bases in H^1, H(div) and H(curl) by matrices beside tensor products; not at points
+  bool has_matrices = false;  ///< tensor products of random matrices beside those of polynomials; not at points
+  bool is_small = false;      ///< at most 3 elements and 3 points a direction (5 in one dimension)
 };
 Case random_case(Random &random, const CaseWishes &wishes);
 

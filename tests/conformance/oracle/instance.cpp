@@ -48,6 +48,11 @@ Instance::Instance(Ceed ceed_, const Case &c) : ceed(ceed_) {
                                                              : CeedBasisCreateHcurl;
       ok(create(ceed, space.topology, space.num_comp, space.elem_size, c.max_points(), space.interp.data(),
                 space.derivative.data(), nullptr, nullptr, bases.back().out()));
+    } else if (!space.interp_1d.empty()) {
+      Values points(c.Q_1d), weights(c.Q_1d);
+      ok(CeedGaussQuadrature(c.Q_1d, points.data(), weights.data()));
+      ok(CeedBasisCreateTensorH1(ceed, c.dim, space.num_comp, space.P_1d, c.Q_1d, space.interp_1d.data(),
+                                 space.grad_1d.data(), points.data(), weights.data(), bases.back().out()));
     } else if (space.has_basis()) {
       ok(CeedBasisCreateTensorH1Lagrange(ceed, c.dim, space.num_comp, space.P_1d, c.Q_1d, c.quad_mode,
                                          bases.back().out()));

@@ -143,8 +143,13 @@ class Builder {
     // A tensor product has 2^dim nodes at least; matrices may have fewer.
     const bool is_too_small = l_size > 0 && l_size < CeedIntPow(2, c_.dim);
     const bool is_tabulated = is_too_small || (wishes_.mixes_spaces && random_.chance(0.6));
-    return add_space(is_tabulated ? tabulated_space(c_, random_, num_comp, l_size)
-                                  : random_space(c_, random_, num_comp, l_size));
+    if (is_tabulated) return add_space(tabulated_space(c_, random_, num_comp, l_size));
+    Space space = random_space(c_, random_, num_comp, l_size);
+    if (wishes_.has_matrices && !c_.at_points && random_.chance(0.5)) {
+      space.interp_1d = random_.reals(static_cast<CeedSize>(c_.Q_1d) * space.P_1d);
+      space.grad_1d = random_.reals(static_cast<CeedSize>(c_.Q_1d) * space.P_1d);
+    }
+    return add_space(std::move(space));
   }
 
   /// Active fields of one space, or of a second one with an L-vector of the same length.
@@ -263,13 +268,14 @@ void place_points(Case &c, Random &random, bool keep_counts) {
 }
 
 Case random_case(Random &random, const CaseWishes &wishes) {
-  static const CeedInt max_Q_1d[] = {0, 7, 5, 4};
+  static const CeedInt max_Q_1d[] = {0, 7, 5, 4}, max_small_Q_1d[] = {0, 5, 3, 3};
   Case c;
   c.dim = wishes.dim > 0 ? wishes.dim : random.integer(1, 3);
-  c.num_elem = random.chance(0.2) ? 1 : random.integer(2, 7);
+  c.num_elem = random.chance(0.2) ? 1 : random.integer(2, wishes.is_small ? 3 : 7);
   c.at_points = wishes.at_points;
   c.quad_mode = random.chance(0.7) ? CEED_GAUSS : CEED_GAUSS_LOBATTO;
-  c.Q_1d = random.integer(c.quad_mode == CEED_GAUSS && !c.at_points ? 1 : 2, max_Q_1d[c.dim]);
+  c.Q_1d = random.integer(c.quad_mode == CEED_GAUSS && !c.at_points ? 1 : 2,
+                          wishes.is_small ? max_small_Q_1d[c.dim] : max_Q_1d[c.dim]);
   if (c.at_points) {
     place_points(c, random, false);
   } else {
