@@ -17,7 +17,8 @@ const char *__lsan_default_suppressions(void) {
          "leak:mca_\n"
          "leak:libpmix\n"
          "leak:libhwloc\n"
-         "leak:libevent\n";
+         "leak:libevent\n"
+         "leak:_dl_map_object\n";  // dlopen() where memory runs out within it
 }
 
 const char *__ubsan_default_options(void) { return "print_stacktrace=1"; }

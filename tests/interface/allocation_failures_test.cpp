@@ -44,7 +44,7 @@ void fail_each(Ceed ceed, const Scenario &scenario, bool all) {
       ASSERT_TRUE(ended.code == CEED_ERROR_MAJOR || ended.code == CEED_ERROR_BACKEND)
           << place << ": error " << ended.code << ", " << told.message;
       ASSERT_GE(told.count, 1) << place << ": error " << ended.code << " told to nobody";
-      ASSERT_NE(std::string(told.message).find("ut of memory"), std::string::npos) << place << ": " << told.message;
+      ASSERT_NE(std::string(told.message).find("memory"), std::string::npos) << place << ": " << told.message;
     }
     // After some failures the same calls succeed.
     if (n % 16 == 1) {
@@ -113,6 +113,7 @@ void open_and_list(Ceed) {
 
 TEST(AllocationFailuresOfNoCeed, AreErrorsThatLeakNothing) {
   constexpr Scenario scenario{"open", open_and_list};
+  ASSERT_EQ(run_to_end(scenario, nullptr).code, CEED_ERROR_SUCCESS);  // now the registry is loaded
   for (const bool all : {false, true}) {
     for (long n = 1;; n++) {
       Ended ended;
