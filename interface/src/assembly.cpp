@@ -150,24 +150,28 @@ void ElementMatrix::compute(const Coupling &coupling, CeedInt e, CeedInt Q, cons
 
 }  // namespace hg
 
-int CeedOperatorLinearAssembleGetNumEntries(CeedOperator op, CeedSize *num_entries_out) {
+int CeedOperatorLinearAssembleGetNumEntries(CeedOperator op, CeedSize *num_entries) {
   return hg::guard(hg::ceed_of(op), [&] {
     hg::check_ready(hg::deref(op, "CeedOperator"));
     CeedSize count = 0;
-    hg::for_each_single(*op, [&](CeedOperator_private &single) { count += num_entries(single); });
-    *num_entries_out = count;
+    hg::for_each_single(*op, [&](CeedOperator_private &single) { count += ::num_entries(single); });
+    hg::result(num_entries, "num_entries") = count;
   });
 }
 
-int CeedOperatorLinearAssembleSymbolic(CeedOperator op, CeedSize *num_entries_out, CeedInt **rows, CeedInt **cols) {
+int CeedOperatorLinearAssembleSymbolic(CeedOperator op, CeedSize *num_entries, CeedInt **rows, CeedInt **cols) {
   return hg::guard(hg::ceed_of(op), [&] {
+    hg::deref(op, "CeedOperator");
+    hg::require_argument(num_entries, "num_entries (where their number goes)");
+    hg::require_argument(rows, "rows (where the array goes)");
+    hg::require_argument(cols, "cols (where the array goes)");
     CeedSize count = 0, k = 0;
     hg::check(CeedOperatorLinearAssembleGetNumEntries(op, &count));
     hg::require_index_range(*op);
     auto indices = hg::allocate_indices(*op, count);
     hg::for_each_single(
         *op, [&](CeedOperator_private &single) { symbolic(single, indices.rows.get(), indices.cols.get(), k); });
-    *num_entries_out = count;
+    *num_entries = count;
     *rows = indices.rows.release();
     *cols = indices.cols.release();
   });
@@ -175,6 +179,7 @@ int CeedOperatorLinearAssembleSymbolic(CeedOperator op, CeedSize *num_entries_ou
 
 int CeedOperatorLinearAssemble(CeedOperator op, CeedVector values) {
   return hg::guard(hg::ceed_of(op), [&] {
+    hg::deref(op, "CeedOperator");
     CeedSize count = 0;
     hg::check(CeedOperatorLinearAssembleGetNumEntries(op, &count));
     require(hg::deref(values, "vector of the entries").length >= count, CEED_ERROR_DIMENSION, [&] {

@@ -41,8 +41,14 @@ hg::Ref<CeedElemRestriction_private> assembled_restriction(CeedOperator_private 
   return hg::Ref<CeedElemRestriction_private>::adopt(rstr);
 }
 
+void require_places(const CeedVector *assembled, const CeedElemRestriction *rstr) {
+  hg::require_argument(assembled, "assembled (where the handle goes)");
+  hg::require_argument(rstr, "rstr (where the handle goes)");
+}
+
 void assemble_qfunction(CeedOperator op, CeedVector *assembled, CeedElemRestriction *rstr) {
   const CeedProgram &program = hg::program_of(hg::deref(op, "CeedOperator"));
+  require_places(assembled, rstr);
   hg::require_linearisable(*op, program);
   auto new_rstr = assembled_restriction(*op, program);
   CeedVector vector = nullptr;
@@ -141,6 +147,7 @@ int CeedOperatorLinearAssembleQFunctionBuildOrUpdate(CeedOperator op, CeedVector
                                                      CeedRequest *) {
   return hg::guard(hg::ceed_of(op), [&] {
     const CeedProgram &program = hg::program_of(hg::deref(op, "CeedOperator"));
+    require_places(assembled, rstr);
     // Points may have moved since: what was kept for them does not fit the new ones.
     const bool fits = op->assembled && (!program.at_points || !op->assembly_needs_update);
     if (!fits) {

@@ -38,10 +38,7 @@ void require_length(const CeedBasis_private &basis, const char *name, CeedVector
 /// Checks what quadrature points and arbitrary points have in common.
 void require_mode(const CeedBasis_private &basis, CeedTransposeMode t_mode, CeedEvalMode mode, bool add) {
   if (mode != CEED_EVAL_WEIGHT) hg::require_evaluation(basis, mode);
-  hg::require(t_mode == CEED_NOTRANSPOSE || t_mode == CEED_TRANSPOSE, CEED_ERROR_UNSUPPORTED, [&] {
-    return hg::text("CeedBasis: transpose mode is %d; expected CEED_NOTRANSPOSE or CEED_TRANSPOSE",
-                    static_cast<int>(t_mode));
-  });
+  hg::require_transpose_mode(t_mode, "CeedBasis");
   hg::require(mode != CEED_EVAL_WEIGHT || t_mode == CEED_NOTRANSPOSE, CEED_ERROR_UNSUPPORTED,
               "CeedBasis: CEED_EVAL_WEIGHT has no transpose; expected CEED_NOTRANSPOSE");
   hg::require(!add || t_mode == CEED_TRANSPOSE, CEED_ERROR_UNSUPPORTED,
@@ -82,7 +79,7 @@ void apply_at_points(CeedBasis basis, CeedInt num_elem, const CeedInt *num_point
   const auto &b = hg::deref_basis(basis);
   require_elements(num_elem);
   require_mode(b, t_mode, mode, add);
-  if (num_elem > 0) hg::require_argument(b, num_points, "num_points (a count for each element)");
+  if (num_elem > 0) hg::require_argument(num_points, "num_points (a count for each element)");
   CeedSize total = 0;
   for (CeedInt e = 0; e < num_elem; e++) {
     hg::require(num_points[e] >= 0, CEED_ERROR_DIMENSION, [&] {

@@ -69,9 +69,6 @@ void require_polynomial(const CeedBasis_private &basis);
 /// num_columns) at distinct points; empty where the points are not distinct.
 std::vector<CeedScalar> chebyshev_coefficients(const std::vector<CeedScalar> &points,
                                                const std::vector<CeedScalar> &values, CeedInt num_columns);
-/// Throws if a pointer argument of a basis function is NULL; `what` names it and says what it should be.
-void require_argument(const CeedBasis_private &basis, const void *argument, const char *what,
-                      Where where = Where::current());
 /// A live basis that is not CEED_BASIS_NONE.
 CeedBasis_private &deref_basis(CeedBasis basis, Where where = Where::current());
 

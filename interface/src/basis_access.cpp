@@ -52,14 +52,11 @@ CeedSize contraction_size(CeedInt dim, CeedSize P, CeedSize Q, bool is_grad) {
   return size;
 }
 
-/// Body of the getters of a number or pointer.
+/// Body of the getters of a number or pointer; `function` is the getter.
 template <typename T, typename Get>
-int get(CeedBasis basis, T *value, const char *name, Get &&getter) {
-  return hg::guard(hg::ceed_of(basis), [&] {
-    auto &b = hg::deref_basis(basis);
-    hg::require_argument(b, value, name);
-    *value = getter(b);
-  });
+int get(CeedBasis basis, T *value, const char *name, Get &&getter, const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(basis), [&] { hg::result(value, name) = getter(hg::deref_basis(basis)); }, function);
 }
 
 }  // namespace
@@ -76,12 +73,6 @@ CeedBasis_private &deref_basis(CeedBasis basis, Where where) {
   require(!basis->is_sentinel, CEED_ERROR_INCOMPATIBLE, "CeedBasis is CEED_BASIS_NONE; expected a basis with matrices",
           where);
   return *basis;
-}
-
-void require_argument(const CeedBasis_private &, const void *argument, const char *what, Where where) {
-  require(
-      argument != nullptr, CEED_ERROR_INCOMPLETE,
-      [&] { return text("CeedBasis: argument is NULL; expected %s", what); }, where);
 }
 
 bool equal(const CeedBasis_private &a, const CeedBasis_private &b) {
@@ -177,27 +168,23 @@ void CeedBasis_private::view(FILE *stream) const {
 }
 
 int CeedBasisView(CeedBasis basis, FILE *stream) {
-  return hg::guard(hg::ceed_of(basis), [&] {
-    hg::deref(basis, "CeedBasis");
-    hg::require(stream != nullptr, CEED_ERROR_INCOMPLETE, "CeedBasis: stream is NULL; expected an open file");
-    basis->view(stream);
-  });
+  return hg::view_object(basis, stream);
 }
 
 int CeedBasisSetNumViewTabs(CeedBasis basis, CeedInt num_tabs) {
-  return CeedObjectSetNumViewTabs(basis, num_tabs);
+  return hg::set_view_tabs(basis, num_tabs);
 }
 
 int CeedBasisGetNumViewTabs(CeedBasis basis, CeedInt *num_tabs) {
-  return CeedObjectGetNumViewTabs(basis, num_tabs);
+  return hg::get_view_tabs(basis, num_tabs);
 }
 
 int CeedBasisGetCeed(CeedBasis basis, Ceed *ceed) {
-  return CeedObjectGetCeed(basis, ceed);
+  return hg::get_ceed(basis, ceed);
 }
 
 Ceed CeedBasisReturnCeed(CeedBasis basis) {
-  return CeedObjectReturnCeed(basis);
+  return hg::ceed_of(basis);
 }
 
 int CeedBasisGetDimension(CeedBasis basis, CeedInt *dim) {
@@ -262,9 +249,9 @@ int CeedOperatorGetBasisPointer(CeedBasis basis, CeedEvalMode eval_mode, const C
                                 const CeedScalar **basis_ptr) {
   return hg::guard(hg::ceed_of(basis), [&] {
     hg::deref(basis, "CeedBasis");
-    hg::require_argument(*basis, basis_ptr, "basis_ptr (where the address goes)");
+    hg::require_argument(basis_ptr, "basis_ptr (where the address goes)");
     if (eval_mode == CEED_EVAL_NONE) {
-      hg::require_argument(*basis, identity, "identity, the matrix of CEED_EVAL_NONE");
+      hg::require_argument(identity, "identity, the matrix of CEED_EVAL_NONE");
       *basis_ptr = identity;
     } else {
       *basis_ptr = hg::matrix(hg::deref_basis(basis), eval_mode).data();
@@ -306,11 +293,7 @@ int CeedBasisIsCollocated(CeedBasis basis, bool *is_collocated) {
 }
 
 int CeedBasisGetData(CeedBasis basis, void *data) {
-  return hg::guard(hg::ceed_of(basis), [&] {
-    auto &b = hg::deref_basis(basis);
-    hg::require_argument(b, data, "data (where the pointer goes)");
-    *static_cast<void **>(data) = b.data;
-  });
+  return get(basis, static_cast<void **>(data), "data", [](auto &b) { return b.data; });
 }
 
 int CeedBasisSetData(CeedBasis basis, void *data) {
@@ -320,7 +303,7 @@ int CeedBasisSetData(CeedBasis basis, void *data) {
 int CeedBasisGetNumQuadratureComponents(CeedBasis basis, CeedEvalMode eval_mode, CeedInt *q_comp) {
   return hg::guard(hg::ceed_of(basis), [&] {
     auto &b = hg::deref(basis, "CeedBasis");
-    hg::require_argument(b, q_comp, "q_comp");
+    hg::require_argument(q_comp, "q_comp");
     *q_comp = hg::q_components(b, eval_mode);
   });
 }
@@ -330,12 +313,12 @@ int CeedBasisGetFlopsEstimate(CeedBasis basis, CeedTransposeMode t_mode, CeedEva
                               CeedInt num_points, CeedSize *flops) {
   return hg::guard(hg::ceed_of(basis), [&] {
     auto &b = hg::deref_basis(basis);
-    hg::require_argument(b, flops, "flops");
+    hg::require_argument(flops, "flops");
     hg::require(!is_at_points || num_points >= 0, CEED_ERROR_DIMENSION, [&] {
       return hg::text("CeedBasis: num_points is %" CeedInt_FMT "; expected zero or more", num_points);
     });
     // The transpose does the same multiplications in the other order.
-    static_cast<void>(t_mode);
+    hg::require_transpose_mode(t_mode, "CeedBasis");
     const CeedSize q_comp = hg::q_components(b, eval_mode);
     if (eval_mode == CEED_EVAL_NONE) {
       *flops = 0;
@@ -367,8 +350,12 @@ int CeedBasisGetDerivativeMode(CeedBasis basis, CeedEvalMode *eval_mode) {
 
 int CeedBasisGetTopologyDimension(CeedElemTopology topo, CeedInt *dim) {
   return hg::guard(nullptr, [&] {
-    hg::require(dim != nullptr, CEED_ERROR_INCOMPLETE, "CeedBasis: argument is NULL; expected dim");
+    const bool is_known = topo >= 0 && topo <= CEED_TOPOLOGY_HEX && CeedElemTopologies[topo] != nullptr;
+    hg::require(is_known, CEED_ERROR_DIMENSION, [&] {
+      return hg::text("CeedBasis: topology is %d; expected a CeedElemTopology such as CEED_TOPOLOGY_TRIANGLE",
+                      static_cast<int>(topo));
+    });
     // The dimension is the upper half of the number.
-    *dim = static_cast<CeedInt>(topo) >> 16;
+    hg::result(dim, "dim") = static_cast<CeedInt>(topo) >> 16;
   });
 }

@@ -43,8 +43,8 @@ void create(Ceed ceed, CeedFESpace space, CeedElemTopology topology, CeedInt num
             const CeedScalar *interp, const CeedScalar *derivative, const CeedScalar *q_ref, const CeedScalar *q_weight,
             CeedBasis *handle) {
   auto basis = hg::make_basis(ceed, space, topology, num_comp, P, Q);
-  hg::require_argument(*basis, interp, "interp (q_comp * Q * P entries)");
-  hg::require_argument(*basis, handle, "basis (where the handle goes)");
+  hg::require_argument(interp, "interp (q_comp * Q * P entries)");
+  hg::require_argument(handle, "basis (where the handle goes)");
   const auto q_comp = [&](CeedEvalMode mode) { return static_cast<std::size_t>(hg::q_components(*basis, mode)); };
   const std::size_t size = static_cast<std::size_t>(Q) * P;
   basis->interp.assign(interp, interp + q_comp(CEED_EVAL_INTERP) * size);
@@ -139,7 +139,7 @@ int CeedBasisCreateTensorH1Lagrange(Ceed ceed, CeedInt dim, CeedInt num_comp, Ce
                                     CeedQuadMode quad_mode, CeedBasis *basis) {
   return hg::guard(ceed, [&] {
     auto b = hg::make_tensor_basis(ceed, dim, num_comp, P, Q);
-    hg::require_argument(*b, basis, "basis (where the handle goes)");
+    hg::require_argument(basis, "basis (where the handle goes)");
     b->q_ref.resize(Q);
     b->q_weight.resize(Q);
     switch (quad_mode) {
@@ -171,11 +171,11 @@ int CeedBasisCreateTensorH1(Ceed ceed, CeedInt dim, CeedInt num_comp, CeedInt P_
                             const CeedScalar *q_weight_1d, CeedBasis *basis) {
   return hg::guard(ceed, [&] {
     auto b = hg::make_tensor_basis(ceed, dim, num_comp, P_1d, Q_1d);
-    hg::require_argument(*b, interp_1d, "interp_1d (Q_1d * P_1d entries)");
-    hg::require_argument(*b, grad_1d, "grad_1d (Q_1d * P_1d entries)");
-    hg::require_argument(*b, q_ref_1d, "q_ref_1d (Q_1d entries)");
-    hg::require_argument(*b, q_weight_1d, "q_weight_1d (Q_1d entries)");
-    hg::require_argument(*b, basis, "basis (where the handle goes)");
+    hg::require_argument(interp_1d, "interp_1d (Q_1d * P_1d entries)");
+    hg::require_argument(grad_1d, "grad_1d (Q_1d * P_1d entries)");
+    hg::require_argument(q_ref_1d, "q_ref_1d (Q_1d entries)");
+    hg::require_argument(q_weight_1d, "q_weight_1d (Q_1d entries)");
+    hg::require_argument(basis, "basis (where the handle goes)");
     b->q_ref.assign(q_ref_1d, q_ref_1d + Q_1d);
     b->q_weight.assign(q_weight_1d, q_weight_1d + Q_1d);
     const std::size_t size = static_cast<std::size_t>(Q_1d) * P_1d;

@@ -78,7 +78,7 @@ void evaluate_1d(const CeedBasis_private &basis, CeedScalar x, CeedScalar *value
 int CeedBasisEvaluateAtPoint(CeedBasis basis, const CeedScalar *x_ref, CeedScalar *interp, CeedScalar *grad) {
   return hg::guard(hg::ceed_of(basis), [&] {
     const auto &b = hg::deref_basis(basis);
-    hg::require_argument(b, x_ref, "x_ref (dim coordinates)");
+    hg::require_argument(x_ref, "x_ref (dim coordinates)");
     hg::require_polynomial(b);
     const CeedInt P = b.P_1d;
     std::vector<CeedScalar> value(static_cast<std::size_t>(b.dim) * P), derivative(value.size());
@@ -109,7 +109,7 @@ int CeedBasisGetChebyshevCoefficients1D(CeedBasis basis, CeedInt *num_coeff, con
 int CeedBasisGetChebyshevInterp1D(CeedBasis basis, CeedScalar *chebyshev_interp_1d) {
   return hg::guard(hg::ceed_of(basis), [&] {
     const auto &b = hg::deref_basis(basis);
-    hg::require_argument(b, chebyshev_interp_1d, "chebyshev_interp_1d (Q_1d * P_1d entries)");
+    hg::require_argument(chebyshev_interp_1d, "chebyshev_interp_1d (Q_1d * P_1d entries)");
     hg::require_tensor(b, "the Chebyshev interpolation");
     const auto coefficients = hg::chebyshev_coefficients(b.q_ref, b.interp_1d, b.P_1d);
     hg::require(!coefficients.empty(), CEED_ERROR_UNSUPPORTED,
@@ -122,7 +122,7 @@ int CeedBasisGetChebyshevInterp1D(CeedBasis basis, CeedScalar *chebyshev_interp_
 int CeedBasisGetCollocatedGrad(CeedBasis basis, CeedScalar *colo_grad_1d) {
   return hg::guard(hg::ceed_of(basis), [&] {
     const auto &b = hg::deref_basis(basis);
-    hg::require_argument(b, colo_grad_1d, "colo_grad_1d (Q_1d * Q_1d entries)");
+    hg::require_argument(colo_grad_1d, "colo_grad_1d (Q_1d * Q_1d entries)");
     hg::require_tensor(b, "the collocated gradient");
     const auto inverse = hg::pseudo_inverse(b.interp_1d, b.Q_1d, b.P_1d, "CeedBasis: interp_1d");
     const auto d = hg::multiply(b.grad_1d, inverse, b.Q_1d, b.P_1d, b.Q_1d);

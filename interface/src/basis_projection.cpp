@@ -54,7 +54,7 @@ hg::Ref<CeedBasis_private> project_full(CeedBasis_private &from, CeedBasis_priva
 int CeedBasisCreateProjection(CeedBasis basis_from, CeedBasis basis_to, CeedBasis *basis_project) {
   return hg::guard(hg::ceed_of(basis_from), [&] {
     auto &from = hg::deref_basis(basis_from), &to = hg::deref_basis(basis_to);
-    hg::require_argument(from, basis_project, "basis_project (where the handle goes)");
+    hg::require_argument(basis_project, "basis_project (where the handle goes)");
     hg::require(from.fe_space == to.fe_space, CEED_ERROR_INCOMPATIBLE, [&] {
       return hg::text("CeedBasis: projection from a %s to a %s; expected bases in one kind of space",
                       CeedFESpaces[from.fe_space], CeedFESpaces[to.fe_space]);

@@ -23,6 +23,16 @@ void require_mem_type(const Ceed_private &ceed, CeedMemType mem_type, const char
   });
 }
 
+void require_transpose_mode(CeedTransposeMode t_mode, const char *what, Where where) {
+  require(
+      t_mode == CEED_NOTRANSPOSE || t_mode == CEED_TRANSPOSE, CEED_ERROR_UNSUPPORTED,
+      [&] {
+        return text("%s: transpose mode is %d; expected CEED_NOTRANSPOSE (0) or CEED_TRANSPOSE (1)", what,
+                    static_cast<int>(t_mode));
+      },
+      where);
+}
+
 }  // namespace hg
 
 Ceed_private::~Ceed_private() {
@@ -40,7 +50,7 @@ void Ceed_private::view(FILE *stream) const {
 int CeedInit(const char *resource, Ceed *ceed) {
   return hg::guard(nullptr, [&] {
     hg::require(resource != nullptr, CEED_ERROR_MINOR, "Resource is NULL; expected a name such as \"/cpu/self\"");
-    hg::require(ceed != nullptr, CEED_ERROR_MINOR, "Address of the Ceed is NULL");
+    hg::require(ceed != nullptr, CEED_ERROR_MINOR, "Address of the Ceed is NULL; expected where the handle goes");
     std::string_view request = resource;
     if (request.substr(0, request.find(':')) == "help") {
       hg::print_resources(stderr);
@@ -88,13 +98,14 @@ int CeedSetStream(Ceed ceed, void *handle) {
 }
 
 int CeedGetResource(Ceed ceed, const char **resource) {
-  return hg::guard(ceed, [&] { *resource = hg::deref(ceed, "Ceed").resource.c_str(); });
+  return hg::guard(ceed, [&] { hg::result(resource, "resource") = hg::deref(ceed, "Ceed").resource.c_str(); });
 }
 
 int CeedGetResourceRoot(Ceed ceed, const char *resource, const char *delineator, char **resource_root) {
   return hg::guard(ceed, [&] {
     hg::require(resource != nullptr && delineator != nullptr, CEED_ERROR_MINOR,
-                "CeedGetResourceRoot takes a resource and a delineator; one of them is NULL");
+                "An argument is NULL; expected a resource and the delineator that ends its root");
+    hg::require_argument(resource_root, "resource_root (where the text goes)");
     const std::string_view whole = resource;
     const std::string root(whole.substr(0, whole.find(delineator)));
     *resource_root = ::strdup(root.c_str());
@@ -103,7 +114,8 @@ int CeedGetResourceRoot(Ceed ceed, const char *resource, const char *delineator,
 }
 
 int CeedIsDeterministic(Ceed ceed, bool *is_deterministic) {
-  return hg::guard(ceed, [&] { *is_deterministic = hg::deref(ceed, "Ceed").is_deterministic; });
+  return hg::guard(
+      ceed, [&] { hg::result(is_deterministic, "is_deterministic") = hg::deref(ceed, "Ceed").is_deterministic; });
 }
 
 int CeedSetDeterministic(Ceed ceed, bool is_deterministic) {
@@ -111,15 +123,15 @@ int CeedSetDeterministic(Ceed ceed, bool is_deterministic) {
 }
 
 int CeedSetNumViewTabs(Ceed ceed, CeedInt num_tabs) {
-  return CeedObjectSetNumViewTabs(reinterpret_cast<CeedObject>(ceed), num_tabs);
+  return hg::set_view_tabs(ceed, num_tabs);
 }
 
 int CeedGetNumViewTabs(Ceed ceed, CeedInt *num_tabs) {
-  return CeedObjectGetNumViewTabs(reinterpret_cast<CeedObject>(ceed), num_tabs);
+  return hg::get_view_tabs(ceed, num_tabs);
 }
 
 int CeedView(Ceed ceed, FILE *stream) {
-  return hg::guard(ceed, [&] { hg::deref(ceed, "Ceed").view(stream); });
+  return hg::view_object(ceed, stream);
 }
 
 int CeedGetVersion(int *major, int *minor, int *patch, bool *release) {
@@ -131,13 +143,11 @@ int CeedGetVersion(int *major, int *minor, int *patch, bool *release) {
 }
 
 int CeedGetGitVersion(const char **git_version) {
-  *git_version = hg::git_version;
-  return CEED_ERROR_SUCCESS;
+  return hg::guard(nullptr, [&] { hg::result(git_version, "git_version") = hg::git_version; });
 }
 
 int CeedGetBuildConfiguration(const char **build_config) {
-  *build_config = hg::build_configuration;
-  return CEED_ERROR_SUCCESS;
+  return hg::guard(nullptr, [&] { hg::result(build_config, "build_config") = hg::build_configuration; });
 }
 
 int CeedSetIsClang(Ceed ceed, bool isClang) {
@@ -145,29 +155,29 @@ int CeedSetIsClang(Ceed ceed, bool isClang) {
 }
 
 int CeedGetIsClang(Ceed ceed, bool *isClang) {
-  return hg::guard(ceed, [&] { *isClang = hg::deref(ceed, "Ceed").is_clang; });
+  return hg::guard(ceed, [&] { hg::result(isClang, "isClang") = hg::deref(ceed, "Ceed").is_clang; });
 }
 
 int CeedGetScalarType(CeedScalarType *scalar_type) {
-  *scalar_type = CEED_SCALAR_TYPE;
-  return CEED_ERROR_SUCCESS;
+  return hg::guard(nullptr, [&] { hg::result(scalar_type, "scalar_type") = CEED_SCALAR_TYPE; });
 }
 
 int CeedGetPreferredMemType(Ceed ceed, CeedMemType *type) {
-  return hg::guard(ceed, [&] { *type = hg::deref(ceed, "Ceed").ops.preferred_mem_type; });
+  return hg::guard(ceed, [&] { hg::result(type, "type") = hg::deref(ceed, "Ceed").ops.preferred_mem_type; });
 }
 
-int CeedIsDebug(Ceed, bool *is_debug) {
-  *is_debug = std::getenv("CEED_DEBUG") != nullptr || std::getenv("DEBUG") != nullptr;
-  return CEED_ERROR_SUCCESS;
+int CeedIsDebug(Ceed ceed, bool *is_debug) {
+  return hg::guard(ceed, [&] {
+    hg::result(is_debug, "is_debug") = std::getenv("CEED_DEBUG") != nullptr || std::getenv("DEBUG") != nullptr;
+  });
 }
 
 int CeedGetBackendOps(Ceed ceed, const CeedBackendOps **ops) {
-  return hg::guard(ceed, [&] { *ops = &hg::deref(ceed, "Ceed").ops; });
+  return hg::guard(ceed, [&] { hg::result(ops, "ops") = &hg::deref(ceed, "Ceed").ops; });
 }
 
 int CeedGetData(Ceed ceed, void *data) {
-  return hg::guard(ceed, [&] { *static_cast<void **>(data) = hg::deref(ceed, "Ceed").data; });
+  return hg::guard(ceed, [&] { hg::result(static_cast<void **>(data), "data") = hg::deref(ceed, "Ceed").data; });
 }
 
 int CeedSetData(Ceed ceed, void *data) {

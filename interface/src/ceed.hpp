@@ -47,5 +47,6 @@ namespace hg {
 void destroy_work_vectors(Ceed_private &ceed) noexcept;
 /// Checks that a memory type may be used with the Ceed's backend.
 void require_mem_type(const Ceed_private &ceed, CeedMemType mem_type, const char *what);
+void require_transpose_mode(CeedTransposeMode t_mode, const char *what, Where where = Where::current());
 
 }  // namespace hg

@@ -72,7 +72,7 @@ int add_field(CeedQFunctionContext ctx, const char *name, CeedContextFieldType t
       [&] {
         auto &c = deref_context(ctx);
         hg::require(name != nullptr && name[0] != '\0', CEED_ERROR_MINOR,
-                    "CeedQFunctionContext field: the name is empty; expected text");
+                    "CeedQFunctionContext field: the name is NULL or empty; expected text");
         for (const auto &label : c.labels) {
           hg::require(label.name != name, CEED_ERROR_UNSUPPORTED, [&] {
             return hg::text("CeedQFunctionContext field with name \"%s\" already registered; expected a new name",
@@ -153,16 +153,26 @@ int get_field(CeedQFunctionContext ctx, CeedContextFieldLabel label, CeedContext
       [&] {
         auto &c = deref_context(ctx);
         require_readable(c);
-        *values = static_cast<const T *>(field_values(c, label, type));
+        hg::result(values, "values") = static_cast<const T *>(field_values(c, label, type));
         if (num_values != nullptr) *num_values = label->num_values;
         begin_reading(c);
       },
       function);
 }
 
-template <typename T>
-int restore_field(CeedQFunctionContext ctx, const T **values) {
-  return CeedQFunctionContextRestoreDataRead(ctx, static_cast<void *>(values));
+/// Ends a read access; `data` is the address of a pointer, or NULL.
+int restore_read(CeedQFunctionContext ctx, void *data, const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(ctx),
+      [&] {
+        auto &c = deref_context(ctx);
+        const std::scoped_lock lock(c.access);
+        hg::require(c.num_readers > 0, CEED_ERROR_ACCESS,
+                    "Cannot restore CeedQFunctionContext data read access, access was not granted");
+        if (data != nullptr) *static_cast<void **>(data) = nullptr;
+        end_reading(c);
+      },
+      function);
 }
 
 }  // namespace
@@ -199,7 +209,8 @@ void CeedQFunctionContext_private::view(FILE *stream) const {
 int CeedQFunctionContextCreate(Ceed ceed, CeedQFunctionContext *ctx) {
   return hg::guard(ceed, [&] {
     hg::deref(ceed, "Ceed");
-    hg::require(ctx != nullptr, CEED_ERROR_MINOR, "CeedQFunctionContextCreate: the address of the handle is NULL");
+    hg::require(ctx != nullptr, CEED_ERROR_MINOR,
+                "CeedQFunctionContextCreate: the address of the handle is NULL; expected where it goes");
     auto created = hg::Ref<CeedQFunctionContext_private>::adopt(new CeedQFunctionContext_private);
     created->ceed = hg::Ref<Ceed_private>(ceed);
     *ctx = created.release();
@@ -276,7 +287,7 @@ int CeedQFunctionContextGetData(CeedQFunctionContext ctx, CeedMemType mem_type, 
     require_writable(c);
     require_host(c, mem_type, "CeedQFunctionContextGetData");
     require_data(c);
-    *static_cast<void **>(data) = c.values;
+    hg::result(static_cast<void **>(data), "data") = c.values;
     c.state++;
   });
 }
@@ -288,7 +299,7 @@ int CeedQFunctionContextGetDataRead(CeedQFunctionContext ctx, CeedMemType mem_ty
     require_readable(c);
     require_host(c, mem_type, "CeedQFunctionContextGetDataRead");
     require_data(c);
-    *static_cast<void **>(data) = c.values;
+    hg::result(static_cast<void **>(data), "data") = c.values;
     begin_reading(c);
   });
 }
@@ -305,14 +316,7 @@ int CeedQFunctionContextRestoreData(CeedQFunctionContext ctx, void *data) {
 }
 
 int CeedQFunctionContextRestoreDataRead(CeedQFunctionContext ctx, void *data) {
-  return hg::guard(hg::ceed_of(ctx), [&] {
-    auto &c = deref_context(ctx);
-    const std::scoped_lock lock(c.access);
-    hg::require(c.num_readers > 0, CEED_ERROR_ACCESS,
-                "Cannot restore CeedQFunctionContext data read access, access was not granted");
-    if (data != nullptr) *static_cast<void **>(data) = nullptr;
-    end_reading(c);
-  });
+  return restore_read(ctx, data);
 }
 
 int CeedQFunctionContextSetDataDestroy(CeedQFunctionContext ctx, CeedMemType f_mem_type,
@@ -354,10 +358,10 @@ int CeedQFunctionContextGetFieldLabel(CeedQFunctionContext ctx, const char *fiel
                                       CeedContextFieldLabel *field_label) {
   return hg::guard(hg::ceed_of(ctx), [&] {
     auto &c = deref_context(ctx);
-    hg::require(field_name != nullptr, CEED_ERROR_MINOR, "CeedQFunctionContext field: the name is NULL");
+    hg::require(field_name != nullptr, CEED_ERROR_MINOR, "CeedQFunctionContext field: the name is NULL; expected text");
     const auto found =
         std::find_if(c.labels.begin(), c.labels.end(), [&](auto &label) { return label.name == field_name; });
-    *field_label = found != c.labels.end() ? &*found : nullptr;
+    hg::result(field_label, "field_label") = found != c.labels.end() ? &*found : nullptr;
   });
 }
 
@@ -375,23 +379,23 @@ int CeedContextFieldLabelGetDescription(CeedContextFieldLabel label, const char 
 }
 
 int CeedQFunctionContextGetContextSize(CeedQFunctionContext ctx, size_t *ctx_size) {
-  return hg::guard(hg::ceed_of(ctx), [&] { *ctx_size = deref_context(ctx).size; });
+  return hg::guard(hg::ceed_of(ctx), [&] { hg::result(ctx_size, "ctx_size") = deref_context(ctx).size; });
 }
 
 int CeedQFunctionContextSetNumViewTabs(CeedQFunctionContext ctx, CeedInt num_tabs) {
-  return CeedObjectSetNumViewTabs(ctx, num_tabs);
+  return hg::set_view_tabs(ctx, num_tabs);
 }
 
 int CeedQFunctionContextGetNumViewTabs(CeedQFunctionContext ctx, CeedInt *num_tabs) {
-  return CeedObjectGetNumViewTabs(ctx, num_tabs);
+  return hg::get_view_tabs(ctx, num_tabs);
 }
 
 int CeedQFunctionContextView(CeedQFunctionContext ctx, FILE *stream) {
-  return CeedObjectView(ctx, stream);
+  return hg::view_object(ctx, stream);
 }
 
 int CeedQFunctionContextGetCeed(CeedQFunctionContext ctx, Ceed *ceed) {
-  return CeedObjectGetCeed(ctx, ceed);
+  return hg::get_ceed(ctx, ceed);
 }
 
 Ceed CeedQFunctionContextReturnCeed(CeedQFunctionContext ctx) {
@@ -399,19 +403,24 @@ Ceed CeedQFunctionContextReturnCeed(CeedQFunctionContext ctx) {
 }
 
 int CeedQFunctionContextHasValidData(CeedQFunctionContext ctx, bool *has_valid_data) {
-  return hg::guard(hg::ceed_of(ctx), [&] { *has_valid_data = deref_context(ctx).values != nullptr; });
+  return hg::guard(hg::ceed_of(ctx),
+                   [&] { hg::result(has_valid_data, "has_valid_data") = deref_context(ctx).values != nullptr; });
 }
 
 int CeedQFunctionContextHasBorrowedDataOfType(CeedQFunctionContext ctx, CeedMemType mem_type,
                                               bool *has_borrowed_data_of_type) {
   return hg::guard(hg::ceed_of(ctx), [&] {
     auto &c = deref_context(ctx);
-    *has_borrowed_data_of_type = mem_type == CEED_MEM_HOST && c.is_borrowed();
+    hg::require(mem_type == CEED_MEM_HOST || mem_type == CEED_MEM_DEVICE, CEED_ERROR_MINOR, [&] {
+      return hg::text("CeedQFunctionContext: memory type is %d; expected CEED_MEM_HOST (0) or CEED_MEM_DEVICE (1)",
+                      static_cast<int>(mem_type));
+    });
+    hg::result(has_borrowed_data_of_type, "has_borrowed_data_of_type") = mem_type == CEED_MEM_HOST && c.is_borrowed();
   });
 }
 
 int CeedQFunctionContextGetState(CeedQFunctionContext ctx, uint64_t *state) {
-  return hg::guard(hg::ceed_of(ctx), [&] { *state = deref_context(ctx).state; });
+  return hg::guard(hg::ceed_of(ctx), [&] { hg::result(state, "state") = deref_context(ctx).state; });
 }
 
 int CeedQFunctionContextSetDouble(CeedQFunctionContext ctx, CeedContextFieldLabel field_label, double *values) {
@@ -424,7 +433,7 @@ int CeedQFunctionContextGetDoubleRead(CeedQFunctionContext ctx, CeedContextField
 }
 
 int CeedQFunctionContextRestoreDoubleRead(CeedQFunctionContext ctx, CeedContextFieldLabel, const double **values) {
-  return restore_field(ctx, values);
+  return restore_read(ctx, static_cast<void *>(values));
 }
 
 int CeedQFunctionContextSetInt32(CeedQFunctionContext ctx, CeedContextFieldLabel field_label, int32_t *values) {
@@ -437,7 +446,7 @@ int CeedQFunctionContextGetInt32Read(CeedQFunctionContext ctx, CeedContextFieldL
 }
 
 int CeedQFunctionContextRestoreInt32Read(CeedQFunctionContext ctx, CeedContextFieldLabel, const int32_t **values) {
-  return restore_field(ctx, values);
+  return restore_read(ctx, static_cast<void *>(values));
 }
 
 int CeedQFunctionContextSetBoolean(CeedQFunctionContext ctx, CeedContextFieldLabel field_label, bool *values) {
@@ -450,5 +459,5 @@ int CeedQFunctionContextGetBooleanRead(CeedQFunctionContext ctx, CeedContextFiel
 }
 
 int CeedQFunctionContextRestoreBooleanRead(CeedQFunctionContext ctx, CeedContextFieldLabel, const bool **values) {
-  return restore_field(ctx, values);
+  return restore_read(ctx, static_cast<void *>(values));
 }

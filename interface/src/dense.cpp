@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "error.hpp"
+#include "ceed.hpp"
 
 namespace hg {
 
@@ -209,11 +209,6 @@ void simultaneous_diagonalize(std::span<const CeedScalar> a, std::span<const Cee
 
 namespace {
 
-void require_matrix(const void *argument, const char *what) {
-  hg::require(argument != nullptr, CEED_ERROR_INCOMPLETE,
-              [&] { return hg::text("Dense algebra: argument is NULL; expected %s", what); });
-}
-
 void require_size(CeedInt size, const char *what) {
   hg::require(size >= 1, CEED_ERROR_DIMENSION,
               [&] { return hg::text("Dense algebra: %s is %" CeedInt_FMT "; expected 1 or more", what, size); });
@@ -231,9 +226,9 @@ int CeedMatrixMatrixMultiply(Ceed ceed, const CeedScalar *mat_A, const CeedScala
     require_size(m, "m (rows of A)");
     require_size(n, "n (columns of B)");
     require_size(kk, "kk (columns of A)");
-    require_matrix(mat_A, "mat_A (m by kk)");
-    require_matrix(mat_B, "mat_B (kk by n)");
-    require_matrix(mat_C, "mat_C (m by n)");
+    hg::require_argument(mat_A, "mat_A (m by kk)");
+    hg::require_argument(mat_B, "mat_B (kk by n)");
+    hg::require_argument(mat_C, "mat_C (m by n)");
     const auto c =
         hg::multiply({mat_A, static_cast<std::size_t>(m) * kk}, {mat_B, static_cast<std::size_t>(kk) * n}, m, kk, n);
     std::copy(c.begin(), c.end(), mat_C);
@@ -244,8 +239,8 @@ int CeedQRFactorization(Ceed ceed, CeedScalar *mat, CeedScalar *tau, CeedInt m, 
   return hg::guard(ceed, [&] {
     require_size(m, "m (rows)");
     require_size(n, "n (columns)");
-    require_matrix(mat, "mat (m by n)");
-    require_matrix(tau, "tau (n factors)");
+    hg::require_argument(mat, "mat (m by n)");
+    hg::require_argument(tau, "tau (n factors)");
     hg::qr_factorize(mat, tau, m, n, "QR factorization: the matrix");
   });
 }
@@ -259,13 +254,10 @@ int CeedHouseholderApplyQ(CeedScalar *mat_A, const CeedScalar *mat_Q, const Ceed
       return hg::text("Householder: k, the number of reflectors, is %" CeedInt_FMT "; expected 0 to m = %" CeedInt_FMT,
                       k, m);
     });
-    require_matrix(mat_A, "mat_A (m by n)");
-    require_matrix(mat_Q, "mat_Q (m by k)");
-    require_matrix(tau, "tau (k factors)");
-    hg::require(t_mode == CEED_NOTRANSPOSE || t_mode == CEED_TRANSPOSE, CEED_ERROR_UNSUPPORTED, [&] {
-      return hg::text("Householder: transpose mode is %d; expected CEED_NOTRANSPOSE or CEED_TRANSPOSE",
-                      static_cast<int>(t_mode));
-    });
+    hg::require_argument(mat_A, "mat_A (m by n)");
+    hg::require_argument(mat_Q, "mat_Q (m by k)");
+    hg::require_argument(tau, "tau (k factors)");
+    hg::require_transpose_mode(t_mode, "Householder");
     hg::apply_q(mat_A, mat_Q, tau, t_mode == CEED_TRANSPOSE, m, n, k, row, col);
   });
 }
@@ -274,8 +266,8 @@ int CeedMatrixPseudoinverse(Ceed ceed, const CeedScalar *mat, CeedInt m, CeedInt
   return hg::guard(ceed, [&] {
     require_size(m, "m (rows)");
     require_size(n, "n (columns)");
-    require_matrix(mat, "mat (m by n)");
-    require_matrix(mat_pinv, "mat_pinv (n by m)");
+    hg::require_argument(mat, "mat (m by n)");
+    hg::require_argument(mat_pinv, "mat_pinv (n by m)");
     const auto inverse = hg::pseudo_inverse({mat, static_cast<std::size_t>(m) * n}, m, n, "Pseudoinverse: the matrix");
     std::copy(inverse.begin(), inverse.end(), mat_pinv);
   });
@@ -284,8 +276,8 @@ int CeedMatrixPseudoinverse(Ceed ceed, const CeedScalar *mat, CeedInt m, CeedInt
 int CeedSymmetricSchurDecomposition(Ceed ceed, CeedScalar *mat, CeedScalar *lambda, CeedInt n) {
   return hg::guard(ceed, [&] {
     require_size(n, "n (rows and columns)");
-    require_matrix(mat, "mat (n by n)");
-    require_matrix(lambda, "lambda (n eigenvalues)");
+    hg::require_argument(mat, "mat (n by n)");
+    hg::require_argument(lambda, "lambda (n eigenvalues)");
     hg::symmetric_eigen(mat, lambda, n, "Symmetric Schur decomposition");
   });
 }
@@ -294,10 +286,10 @@ int CeedSimultaneousDiagonalization(Ceed ceed, CeedScalar *mat_A, CeedScalar *ma
                                     CeedInt n) {
   return hg::guard(ceed, [&] {
     require_size(n, "n (rows and columns)");
-    require_matrix(mat_A, "mat_A (n by n)");
-    require_matrix(mat_B, "mat_B (n by n)");
-    require_matrix(x, "x (n by n)");
-    require_matrix(lambda, "lambda (n eigenvalues)");
+    hg::require_argument(mat_A, "mat_A (n by n)");
+    hg::require_argument(mat_B, "mat_B (n by n)");
+    hg::require_argument(x, "x (n by n)");
+    hg::require_argument(lambda, "lambda (n eigenvalues)");
     hg::simultaneous_diagonalize(square(mat_A, n), square(mat_B, n), x, lambda, n);
   });
 }

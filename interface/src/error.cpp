@@ -83,6 +83,10 @@ int report(Ceed ceed, int code, const char *message, const Where &where, const c
 }  // namespace hg
 
 int CeedErrorImpl(Ceed ceed, const char *filename, int lineno, const char *func, int ecode, const char *format, ...) {
+  // A caller in trouble gets its code whatever it says about itself.
+  if (filename == nullptr) filename = "(no file)";
+  if (func == nullptr) func = "(no function)";
+  if (format == nullptr) format = "(no message)";
   va_list args;
   va_start(args, format);
   const CeedErrorHandler handler = ceed != nullptr ? ceed->error_handler.load() : hg::handler_from_environment();
@@ -126,12 +130,12 @@ int CeedSetErrorHandler(Ceed ceed, CeedErrorHandler handler) {
 }
 
 int CeedGetErrorMessage(Ceed ceed, const char **err_msg) {
-  return hg::guard(ceed, [&] { *err_msg = hg::store_of(ceed).get(); });
+  return hg::guard(ceed, [&] { hg::result(err_msg, "err_msg") = hg::store_of(ceed).get(); });
 }
 
 int CeedResetErrorMessage(Ceed ceed, const char **err_msg) {
   return hg::guard(ceed, [&] {
+    hg::result(err_msg, "err_msg") = nullptr;
     hg::store_of(ceed).forget();
-    *err_msg = nullptr;
   });
 }

@@ -61,6 +61,22 @@ inline void require(bool condition, int code, Message &&message,
   }
 }
 
+/// Throws if a pointer argument is NULL; `what` names it and says what it should be.
+template <typename T>
+void require_argument(T *argument, const char *what, Where where = Where::current()) {
+  require(
+      argument != nullptr, CEED_ERROR_INCOMPLETE, [&] { return text("Argument is NULL; expected %s", what); }, where);
+}
+
+/// Where a result goes; throws if the argument `name` is NULL.
+template <typename T>
+T &result(T *argument, const char *name, Where where = Where::current()) {
+  require(
+      argument != nullptr, CEED_ERROR_INCOMPLETE,
+      [&] { return text("Argument '%s' is NULL; expected where its value goes", name); }, where);
+  return *argument;
+}
+
 /// Throws unless a C function succeeded; it has reported its error itself.
 inline void check(int code) {
   if (code != CEED_ERROR_SUCCESS) throw Reported{code};

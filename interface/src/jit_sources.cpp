@@ -38,7 +38,7 @@ int add(Ceed ceed, std::vector<std::string> Ceed_private::*list, const char *tex
       [&] {
         hg::deref(ceed, "Ceed");
         hg::require(text != nullptr && *text != '\0', CEED_ERROR_MINOR,
-                    [&] { return hg::text("%s is empty; expected text", what); });
+                    [&] { return hg::text("%s is NULL or empty; expected text", what); });
         (ceed->*list).emplace_back(text);
       },
       function);
@@ -51,6 +51,8 @@ int get(Ceed ceed, std::vector<std::string> Ceed_private::*list, CeedInt *count,
       ceed,
       [&] {
         const auto &texts = hg::deref(ceed, "Ceed").*list;
+        hg::require_argument(count, "where the number of strings goes");
+        hg::require_argument(strings, "where the list of strings goes");
         auto **pointers = static_cast<const char **>(std::calloc(texts.size() + 1, sizeof(const char *)));
         if (pointers == nullptr) throw std::bad_alloc();
         for (std::size_t i = 0; i < texts.size(); i++) pointers[i] = texts[i].c_str();
@@ -102,28 +104,31 @@ int CeedRestoreRustSourceRoots(Ceed, const char ***rust_source_roots) { return r
 
 int CeedCheckFilePath(Ceed ceed, const char *source_file_path, bool *is_valid) {
   return hg::guard(ceed, [&] {
-    hg::require(source_file_path != nullptr, CEED_ERROR_MINOR, "CeedCheckFilePath: the path is NULL");
+    hg::require(source_file_path != nullptr, CEED_ERROR_MINOR, "CeedCheckFilePath: the path is NULL; expected a file");
     const std::string_view path = source_file_path;
     std::error_code ignored;
-    *is_valid = fs::is_regular_file(path.substr(0, path.rfind(':')), ignored);
+    hg::result(is_valid, "is_valid") = fs::is_regular_file(path.substr(0, path.rfind(':')), ignored);
   });
 }
 
 int CeedGetJitRelativePath(const char *absolute_file_path, const char **relative_file_path) {
   return hg::guard(nullptr, [&] {
-    hg::require(absolute_file_path != nullptr, CEED_ERROR_MINOR, "CeedGetJitRelativePath: the path is NULL");
+    hg::require(absolute_file_path != nullptr, CEED_ERROR_MINOR,
+                "CeedGetJitRelativePath: the path is NULL; expected a file");
     const auto start = std::string_view(absolute_file_path).rfind(sources_of_the_library);
     hg::require(start != std::string_view::npos, CEED_ERROR_MAJOR, [&] {
       return hg::text("'%s' is not below a folder 'ceed/jit-source'", absolute_file_path);
     });
-    *relative_file_path = absolute_file_path + start;
+    hg::result(relative_file_path, "relative_file_path") = absolute_file_path + start;
   });
 }
 
 int CeedGetJitAbsolutePath(Ceed ceed, const char *relative_file_path, const char **absolute_file_path) {
   return hg::guard(ceed, [&] {
     const auto &roots = hg::deref(ceed, "Ceed").jit_source_roots;
-    hg::require(relative_file_path != nullptr, CEED_ERROR_MINOR, "CeedGetJitAbsolutePath: the path is NULL");
+    hg::require(relative_file_path != nullptr, CEED_ERROR_MINOR,
+                "CeedGetJitAbsolutePath: the path is NULL; expected a file");
+    hg::require_argument(absolute_file_path, "absolute_file_path (where the text goes)");
     std::vector<fs::path> folders(roots.begin(), roots.end());
     if (const fs::path headers = installed_headers(); !headers.empty()) folders.push_back(headers);
     std::string tried;

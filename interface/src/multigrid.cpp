@@ -244,7 +244,7 @@ int CeedOperatorMultigridLevelCreateTensorH1(CeedOperator op_fine, CeedVector p_
     create_level(op_fine, p_mult_fine, rstr_coarse, basis_coarse, {op_coarse, op_prolong, op_restrict},
                  [&](CeedBasis_private &fine) {
                    const CeedBasis_private &coarse = *basis_coarse;
-                   hg::require_argument(coarse, interp_c_to_f, "interp_c_to_f (fine P_1d * coarse P_1d entries)");
+                   hg::require_argument(interp_c_to_f, "interp_c_to_f (fine P_1d * coarse P_1d entries)");
                    hg::require_tensor(coarse, "interpolation from one dimension");
                    hg::require_tensor(fine, "interpolation from one dimension");
                    const CeedInt P = coarse.P_1d, Q = fine.P_1d;
@@ -264,7 +264,7 @@ int CeedOperatorMultigridLevelCreateH1(CeedOperator op_fine, CeedVector p_mult_f
     create_level(op_fine, p_mult_fine, rstr_coarse, basis_coarse, {op_coarse, op_prolong, op_restrict},
                  [&](CeedBasis_private &fine) {
                    const CeedBasis_private &coarse = *basis_coarse;
-                   hg::require_argument(coarse, interp_c_to_f, "interp_c_to_f (fine nodes * coarse nodes entries)");
+                   hg::require_argument(interp_c_to_f, "interp_c_to_f (fine nodes * coarse nodes entries)");
                    CeedBasis created = nullptr;
                    check(CeedBasisCreateH1(coarse.ceed.get(), coarse.topology, coarse.num_comp, coarse.P, fine.P,
                                            interp_c_to_f, nullptr, nullptr, nullptr, &created));

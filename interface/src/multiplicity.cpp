@@ -60,9 +60,8 @@ int CeedOperatorCompositeGetMultiplicity(CeedOperator op, CeedInt num_skip_indic
                 [&] { return hg::text("CeedOperator '%s' is not composite", composite.shown_name()); });
     hg::require(num_skip_indices == 0 || (num_skip_indices > 0 && skip_indices != nullptr), CEED_ERROR_MINOR, [&] {
       return hg::text("CeedOperatorCompositeGetMultiplicity: %" CeedInt_FMT
-                      " indices to skip at %p; expected 0, or an "
-                      "array of so many",
-                      num_skip_indices, static_cast<void *>(skip_indices));
+                      " indices to skip, in %s; expected 0, or an array of so many",
+                      num_skip_indices, skip_indices == nullptr ? "an array that is NULL" : "an array");
     });
     std::vector<bool> is_skipped(composite.subs.size());
     for (const CeedInt index : std::span(skip_indices, static_cast<std::size_t>(num_skip_indices))) {

@@ -17,35 +17,62 @@ void dereference(CeedObject_private *object) {
   delete object;
 }
 
+int view_object(const CeedObject_private *object, FILE *stream, const char *function) {
+  return guard(
+      ceed_of(object),
+      [&] {
+        const auto &shown = deref(object, "Object to view");
+        require(stream != nullptr, CEED_ERROR_MINOR, "The stream is NULL; expected an open file");
+        shown.view(stream);
+      },
+      function);
+}
+
+int set_view_tabs(CeedObject_private *object, CeedInt num_tabs, const char *function) {
+  return guard(
+      ceed_of(object),
+      [&] {
+        require(num_tabs >= 0, CEED_ERROR_MINOR, [&] {
+          return text("Number of view tabs is %" CeedInt_FMT "; expected a non-negative number", num_tabs);
+        });
+        auto &shown = deref(object, "Object to view");
+        if (!shown.is_sentinel) shown.num_view_tabs = num_tabs;
+      },
+      function);
+}
+
+int get_view_tabs(const CeedObject_private *object, CeedInt *num_tabs, const char *function) {
+  return guard(
+      ceed_of(object), [&] { result(num_tabs, "num_tabs") = deref(object, "Object to view").num_view_tabs; }, function);
+}
+
+int get_ceed(const CeedObject_private *object, Ceed *ceed, const char *function) {
+  return guard(
+      ceed_of(object),
+      [&] {
+        Ceed owner = deref(object, "Object of a Ceed").owner();
+        result(ceed, "ceed") = owner;
+        reference(owner);
+      },
+      function);
+}
+
 }  // namespace hg
 
 int CeedObjectView(CeedObject obj, FILE *stream) {
-  return hg::guard(hg::ceed_of(obj), [&] {
-    hg::require(stream != nullptr, CEED_ERROR_MINOR, "CeedObjectView: the stream is NULL; expected an open file");
-    hg::deref(obj, "CeedObject").view(stream);
-  });
+  return hg::view_object(obj, stream);
 }
 
 int CeedObjectSetNumViewTabs(CeedObject obj, CeedInt num_tabs) {
-  return hg::guard(hg::ceed_of(obj), [&] {
-    hg::require(num_tabs >= 0, CEED_ERROR_MINOR, [&] {
-      return hg::text("Number of view tabs is %" CeedInt_FMT "; expected a non-negative number", num_tabs);
-    });
-    auto &object = hg::deref(obj, "CeedObject");
-    if (!object.is_sentinel) object.num_view_tabs = num_tabs;
-  });
+  return hg::set_view_tabs(obj, num_tabs);
 }
 
 int CeedObjectGetNumViewTabs(CeedObject obj, CeedInt *num_tabs) {
-  return hg::guard(hg::ceed_of(obj), [&] { *num_tabs = hg::deref(obj, "CeedObject").num_view_tabs; });
+  return hg::get_view_tabs(obj, num_tabs);
 }
 
 int CeedObjectGetCeed(CeedObject obj, Ceed *ceed) {
-  return hg::guard(hg::ceed_of(obj), [&] {
-    Ceed owner = hg::deref(obj, "CeedObject").owner();
-    hg::reference(owner);
-    *ceed = owner;
-  });
+  return hg::get_ceed(obj, ceed);
 }
 
 Ceed CeedObjectReturnCeed(CeedObject obj) {

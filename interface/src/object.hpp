@@ -82,11 +82,18 @@ class Ref {
   T *object_ = nullptr;
 };
 
+/// Bodies of what all handles can do, for the entry point `function`.
+int view_object(const CeedObject_private *object, FILE *stream, const char *function = __builtin_FUNCTION());
+int set_view_tabs(CeedObject_private *object, CeedInt num_tabs, const char *function = __builtin_FUNCTION());
+int get_view_tabs(const CeedObject_private *object, CeedInt *num_tabs, const char *function = __builtin_FUNCTION());
+int get_ceed(const CeedObject_private *object, Ceed *ceed, const char *function = __builtin_FUNCTION());
+
 /// Body of every Ceed*ReferenceCopy: *copy becomes another counted reference to `object`; what it held is dropped.
 /// *copy must be NULL or a live handle.
 template <typename T>
 void reference_copy(T *object, T **copy) {
   deref(object, "handle to copy");
+  require_argument(copy, "a place for the copy of the handle");
   Ref<T> held(object);
   if (*copy != nullptr) dereference(*copy);  // refused where it is lent out: then *copy stays
   *copy = held.release();

@@ -103,5 +103,6 @@ CeedInt Program::space(CeedElemRestriction rstr, CeedBasis basis) {
 }  // namespace hg
 
 int CeedOperatorGetProgram(CeedOperator op, const CeedProgram **program) {
-  return hg::guard(hg::ceed_of(op), [&] { *program = &hg::program_of(hg::deref(op, "CeedOperator")); });
+  return hg::guard(hg::ceed_of(op),
+                   [&] { hg::result(program, "program") = &hg::program_of(hg::deref(op, "CeedOperator")); });
 }

@@ -82,8 +82,9 @@ std::unique_ptr<CeedQFunctionField_private> new_field(const CeedQFunction_privat
     return hg::text("QFunction '%s' takes no more fields after it has been used ('%s')", qf.kernel_name.c_str(),
                     field_name != nullptr ? field_name : "(null)");
   });
-  hg::require(field_name != nullptr && field_name[0] != '\0', CEED_ERROR_MINOR,
-              [&] { return hg::text("QFunction '%s': a field has no name", qf.kernel_name.c_str()); });
+  hg::require(field_name != nullptr && field_name[0] != '\0', CEED_ERROR_MINOR, [&] {
+    return hg::text("QFunction '%s': the name of a field is NULL or empty; expected text", qf.kernel_name.c_str());
+  });
   hg::require(size >= 1, CEED_ERROR_DIMENSION, [&] {
     return hg::text("QFunction field '%s': size is %" CeedInt_FMT "; expected at least 1", field_name, size);
   });
@@ -104,6 +105,14 @@ std::unique_ptr<CeedQFunctionField_private> new_field(const CeedQFunction_privat
   field->size = size;
   field->eval_mode = eval_mode;
   return field;
+}
+
+/// Body of the getters of a field; `function` is the getter.
+template <typename T, typename Get>
+int get(CeedQFunctionField qf_field, T *value, const char *name, Get &&getter,
+        const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      nullptr, [&] { hg::result(value, name) = getter(hg::deref(qf_field, "CeedQFunctionField")); }, function);
 }
 
 }  // namespace
@@ -163,7 +172,7 @@ int CeedQFunctionRegister(const char *name, const char *source, CeedInt vec_leng
                           int (*init)(Ceed, const char *, CeedQFunction)) {
   return hg::guard(nullptr, [&] {
     hg::require(name != nullptr && f != nullptr && init != nullptr, CEED_ERROR_MINOR,
-                "Registering a QFunction takes a name, a function and an init; one of them is NULL");
+                "Registering a QFunction: an argument is NULL; expected a name, a function and an init");
     auto &registry = qfunction_registry();
     const std::lock_guard lock(registry.mutex);
     registry.entries.insert_or_assign(name, Registered{source != nullptr ? source : "", vec_length, f, init});
@@ -174,8 +183,10 @@ int CeedQFunctionCreateInterior(Ceed ceed, CeedInt vec_length, CeedQFunctionUser
                                 CeedQFunction *qf) {
   return hg::guard(ceed, [&] {
     hg::require(f != nullptr, CEED_ERROR_MINOR, [&] {
-      return hg::text("QFunction '%s': the function is NULL", source != nullptr ? source : "(no source)");
+      return hg::text("QFunction '%s': the function is NULL; expected its address",
+                      source != nullptr ? source : "(no source)");
     });
+    hg::require_argument(qf, "qf (where the handle goes)");
     *qf = create(ceed, vec_length, f, source).release();
   });
 }
@@ -183,6 +194,7 @@ int CeedQFunctionCreateInterior(Ceed ceed, CeedInt vec_length, CeedQFunctionUser
 int CeedQFunctionCreateInteriorByName(Ceed ceed, const char *name, CeedQFunction *qf) {
   return hg::guard(ceed, [&] {
     hg::require(name != nullptr, CEED_ERROR_MINOR, "QFunction name is NULL; expected a name of the gallery");
+    hg::require_argument(qf, "qf (where the handle goes)");
     hg::check(CeedQFunctionRegisterAll());
     Registered found;
     {
@@ -206,6 +218,8 @@ int CeedQFunctionCreateInteriorByName(Ceed ceed, const char *name, CeedQFunction
 int CeedQFunctionCreateIdentity(Ceed ceed, CeedInt size, CeedEvalMode in_mode, CeedEvalMode out_mode,
                                 CeedQFunction *qf) {
   return hg::guard(ceed, [&] {
+    hg::deref(ceed, "Ceed");
+    hg::require_argument(qf, "qf (where the handle goes)");
     CeedQFunction identity = nullptr;
     hg::check(CeedQFunctionCreateInteriorByName(ceed, "Identity", &identity));
     auto created = hg::Ref<CeedQFunction_private>::adopt(identity);
@@ -292,24 +306,24 @@ int CeedQFunctionGetFlopsEstimate(CeedQFunction qf, CeedSize *flops) {
       return hg::text("QFunction '%s' has no flops estimate; set one with CeedQFunctionSetUserFlopsEstimate()",
                       qf->kernel_name.c_str());
     });
-    *flops = qf->user_flops;
+    hg::result(flops, "flops") = qf->user_flops;
   });
 }
 
 int CeedQFunctionSetNumViewTabs(CeedQFunction qf, CeedInt num_tabs) {
-  return CeedObjectSetNumViewTabs(reinterpret_cast<CeedObject>(qf), num_tabs);
+  return hg::set_view_tabs(qf, num_tabs);
 }
 
 int CeedQFunctionGetNumViewTabs(CeedQFunction qf, CeedInt *num_tabs) {
-  return CeedObjectGetNumViewTabs(reinterpret_cast<CeedObject>(qf), num_tabs);
+  return hg::get_view_tabs(qf, num_tabs);
 }
 
 int CeedQFunctionView(CeedQFunction qf, FILE *stream) {
-  return hg::guard(hg::ceed_of(qf), [&] { hg::deref(qf, "CeedQFunction").view(stream); });
+  return hg::view_object(qf, stream);
 }
 
 int CeedQFunctionGetCeed(CeedQFunction qf, Ceed *ceed) {
-  return CeedObjectGetCeed(reinterpret_cast<CeedObject>(qf), ceed);
+  return hg::get_ceed(qf, ceed);
 }
 
 Ceed CeedQFunctionReturnCeed(CeedQFunction qf) { return hg::ceed_of(qf); }
@@ -332,6 +346,8 @@ int CeedQFunctionApply(CeedQFunction qf, CeedInt Q, CeedVector *u, CeedVector *v
       }
     };
     hg::require_gallery_fields(*qf);
+    if (!qf->input_list.empty()) hg::require_argument(u, "u (a vector for each input)");
+    if (!qf->output_list.empty()) hg::require_argument(v, "v (a vector for each output)");
     check_lengths(qf->input_list, u);
     check_lengths(qf->output_list, v);
     qf->is_immutable = true;
@@ -340,48 +356,51 @@ int CeedQFunctionApply(CeedQFunction qf, CeedInt Q, CeedVector *u, CeedVector *v
 }
 
 int CeedQFunctionGetVectorLength(CeedQFunction qf, CeedInt *vec_length) {
-  return hg::guard(hg::ceed_of(qf), [&] { *vec_length = hg::deref(qf, "CeedQFunction").vec_length; });
+  return hg::guard(hg::ceed_of(qf),
+                   [&] { hg::result(vec_length, "vec_length") = hg::deref(qf, "CeedQFunction").vec_length; });
 }
 
 int CeedQFunctionGetNumArgs(CeedQFunction qf, CeedInt *num_input_fields, CeedInt *num_output_fields) {
   return hg::guard(hg::ceed_of(qf), [&] {
-    if (num_input_fields != nullptr) {
-      *num_input_fields = static_cast<CeedInt>(hg::deref(qf, "CeedQFunction").input_list.size());
-    }
-    if (num_output_fields != nullptr) {
-      *num_output_fields = static_cast<CeedInt>(hg::deref(qf, "CeedQFunction").output_list.size());
-    }
+    const auto &f = hg::deref(qf, "CeedQFunction");
+    if (num_input_fields != nullptr) *num_input_fields = static_cast<CeedInt>(f.input_list.size());
+    if (num_output_fields != nullptr) *num_output_fields = static_cast<CeedInt>(f.output_list.size());
   });
 }
 
 int CeedQFunctionGetKernelName(CeedQFunction qf, const char **kernel_name) {
-  return hg::guard(hg::ceed_of(qf), [&] { *kernel_name = hg::deref(qf, "CeedQFunction").kernel_name.c_str(); });
+  return hg::guard(hg::ceed_of(qf), [&] {
+    hg::result(kernel_name, "kernel_name") = hg::deref(qf, "CeedQFunction").kernel_name.c_str();
+  });
 }
 
 int CeedQFunctionGetName(CeedQFunction qf, const char **name) {
-  return hg::guard(hg::ceed_of(qf), [&] { *name = hg::deref(qf, "CeedQFunction").name().c_str(); });
+  return hg::guard(hg::ceed_of(qf), [&] { hg::result(name, "name") = hg::deref(qf, "CeedQFunction").name().c_str(); });
 }
 
 int CeedQFunctionGetSourcePath(CeedQFunction qf, const char **source_path) {
   return hg::guard(hg::ceed_of(qf), [&] {
     const auto &f = hg::deref(qf, "CeedQFunction");
-    *source_path = f.source_path.empty() ? nullptr : f.source_path.c_str();
+    hg::result(source_path, "source_path") = f.source_path.empty() ? nullptr : f.source_path.c_str();
   });
 }
 
 int CeedQFunctionGetUserFunction(CeedQFunction qf, CeedQFunctionUser *f) {
-  return hg::guard(hg::ceed_of(qf), [&] { *f = hg::deref(qf, "CeedQFunction").function; });
+  return hg::guard(hg::ceed_of(qf), [&] { hg::result(f, "f") = hg::deref(qf, "CeedQFunction").function; });
 }
 
 int CeedQFunctionGetContext(CeedQFunction qf, CeedQFunctionContext *ctx) {
   return hg::guard(hg::ceed_of(qf), [&] {
-    *ctx = hg::Ref<CeedQFunctionContext_private>(hg::deref(qf, "CeedQFunction").context).release();
+    const auto &f = hg::deref(qf, "CeedQFunction");
+    hg::result(ctx, "ctx") = f.context.get();
+    hg::reference(f.context.get());
   });
 }
 
 int CeedQFunctionGetContextData(CeedQFunction qf, CeedMemType mem_type, void *data) {
   return hg::guard(hg::ceed_of(qf), [&] {
     const auto &f = hg::deref(qf, "CeedQFunction");
+    hg::require_argument(data, "data (where the pointer goes)");
     if (!f.context) {
       *static_cast<void **>(data) = nullptr;
     } else if (f.is_context_writable) {
@@ -405,15 +424,19 @@ int CeedQFunctionRestoreContextData(CeedQFunction qf, void *data) {
 }
 
 int CeedQFunctionIsIdentity(CeedQFunction qf, bool *is_identity) {
-  return hg::guard(hg::ceed_of(qf), [&] { *is_identity = hg::deref(qf, "CeedQFunction").is_identity; });
+  return hg::guard(hg::ceed_of(qf),
+                   [&] { hg::result(is_identity, "is_identity") = hg::deref(qf, "CeedQFunction").is_identity; });
 }
 
 int CeedQFunctionIsContextWritable(CeedQFunction qf, bool *is_writable) {
-  return hg::guard(hg::ceed_of(qf), [&] { *is_writable = hg::deref(qf, "CeedQFunction").is_context_writable; });
+  return hg::guard(hg::ceed_of(qf), [&] {
+    hg::result(is_writable, "is_writable") = hg::deref(qf, "CeedQFunction").is_context_writable;
+  });
 }
 
 int CeedQFunctionGetData(CeedQFunction qf, void *data) {
-  return hg::guard(hg::ceed_of(qf), [&] { *static_cast<void **>(data) = hg::deref(qf, "CeedQFunction").data; });
+  return hg::guard(hg::ceed_of(qf),
+                   [&] { hg::result(static_cast<void **>(data), "data") = hg::deref(qf, "CeedQFunction").data; });
 }
 
 int CeedQFunctionSetData(CeedQFunction qf, void *data) {
@@ -421,7 +444,8 @@ int CeedQFunctionSetData(CeedQFunction qf, void *data) {
 }
 
 int CeedQFunctionIsImmutable(CeedQFunction qf, bool *is_immutable) {
-  return hg::guard(hg::ceed_of(qf), [&] { *is_immutable = hg::deref(qf, "CeedQFunction").is_immutable; });
+  return hg::guard(hg::ceed_of(qf),
+                   [&] { hg::result(is_immutable, "is_immutable") = hg::deref(qf, "CeedQFunction").is_immutable; });
 }
 
 int CeedQFunctionSetImmutable(CeedQFunction qf) {
@@ -429,24 +453,23 @@ int CeedQFunctionSetImmutable(CeedQFunction qf) {
 }
 
 int CeedQFunctionFieldGetName(CeedQFunctionField qf_field, const char **field_name) {
-  *field_name = qf_field->name.c_str();
-  return CEED_ERROR_SUCCESS;
+  return get(qf_field, field_name, "field_name", [](auto &field) { return field.name.c_str(); });
 }
 
 int CeedQFunctionFieldGetSize(CeedQFunctionField qf_field, CeedInt *size) {
-  *size = qf_field->size;
-  return CEED_ERROR_SUCCESS;
+  return get(qf_field, size, "size", [](auto &field) { return field.size; });
 }
 
 int CeedQFunctionFieldGetEvalMode(CeedQFunctionField qf_field, CeedEvalMode *eval_mode) {
-  *eval_mode = qf_field->eval_mode;
-  return CEED_ERROR_SUCCESS;
+  return get(qf_field, eval_mode, "eval_mode", [](auto &field) { return field.eval_mode; });
 }
 
 int CeedQFunctionFieldGetData(CeedQFunctionField qf_field, const char **field_name, CeedInt *size,
                               CeedEvalMode *eval_mode) {
-  if (field_name != nullptr) *field_name = qf_field->name.c_str();
-  if (size != nullptr) *size = qf_field->size;
-  if (eval_mode != nullptr) *eval_mode = qf_field->eval_mode;
-  return CEED_ERROR_SUCCESS;
+  return hg::guard(nullptr, [&] {
+    const auto &field = hg::deref(qf_field, "CeedQFunctionField");
+    if (field_name != nullptr) *field_name = field.name.c_str();
+    if (size != nullptr) *size = field.size;
+    if (eval_mode != nullptr) *eval_mode = field.eval_mode;
+  });
 }

@@ -264,7 +264,7 @@ void fill_tables(Ceed ceed, const CeedBackend &backend, const char *options) {
 int CeedRegistryGetList(size_t *n, char ***const resources, CeedInt **array) {
   return hg::guard(nullptr, [&] {
     const auto entries = hg::registry();
-    *n = entries.size();
+    hg::result(n, "n") = entries.size();
     char **names = nullptr;
     CeedInt *priorities = nullptr;
     if (resources != nullptr) {
@@ -301,7 +301,8 @@ int CeedPluginRegister(const CeedPlugin *plugin) {
 
 int CeedPluginGetList(size_t *num_plugins, CeedPluginInfo **plugins) {
   return hg::guard(nullptr, [&] {
-    hg::require(num_plugins != nullptr && plugins != nullptr, CEED_ERROR_MINOR, "Address of the list of plugins is NULL");
+    hg::require(num_plugins != nullptr && plugins != nullptr, CEED_ERROR_MINOR,
+                "Address of the list of plugins is NULL; expected where it goes");
     hg::registry();
     const auto records = hg::recorded_plugins();
     auto *list = static_cast<CeedPluginInfo *>(std::calloc(std::max<std::size_t>(records.size(), 1), sizeof(CeedPluginInfo)));

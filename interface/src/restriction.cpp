@@ -34,6 +34,7 @@ void apply_blocks(CeedElemRestriction_private &r, CeedInt first_block, CeedInt n
                   CeedTransposeMode t_mode, CeedVector u, CeedVector ru, hg::Where where = hg::Where::current()) {
   auto &in = hg::deref_vector(u, "Input CeedVector", where);
   auto &out = hg::deref_vector(ru, "Output CeedVector", where);
+  hg::require_transpose_mode(t_mode, "CeedElemRestriction", where);
   const bool is_transpose = t_mode == CEED_TRANSPOSE;
   require_length(r, "Input CeedVector", in, is_transpose ? e_size : r.l_size, where);
   require_length(r, "Output CeedVector", out, is_transpose ? r.l_size : e_size, where);
@@ -90,7 +91,9 @@ void CeedElemRestriction_private::check_destroyable() const {
 
 int CeedElemRestrictionCreateUnsignedCopy(CeedElemRestriction rstr, CeedElemRestriction *rstr_unsigned) {
   return hg::guard(hg::ceed_of(rstr), [&] {
-    auto copy = copy_of(hg::deref_restriction(rstr));
+    hg::deref_restriction(rstr);
+    hg::require_argument(rstr_unsigned, "rstr_unsigned (where the handle goes)");
+    auto copy = copy_of(*rstr);
     if (copy->num_bands == 3) {
       const CeedSize size = copy->table_size(3 * static_cast<CeedSize>(copy->elem_size));
       auto bands = std::make_unique<CeedInt8[]>(static_cast<std::size_t>(size));
@@ -107,7 +110,9 @@ int CeedElemRestrictionCreateUnsignedCopy(CeedElemRestriction rstr, CeedElemRest
 
 int CeedElemRestrictionCreateUnorientedCopy(CeedElemRestriction rstr, CeedElemRestriction *rstr_unoriented) {
   return hg::guard(hg::ceed_of(rstr), [&] {
-    auto copy = copy_of(hg::deref_restriction(rstr));
+    hg::deref_restriction(rstr);
+    hg::require_argument(rstr_unoriented, "rstr_unoriented (where the handle goes)");
+    auto copy = copy_of(*rstr);
     drop_orientation(*copy);
     hg::show_to_backend(*copy);
     *rstr_unoriented = copy.release();

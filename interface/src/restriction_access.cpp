@@ -10,9 +10,10 @@ namespace {
 
 /// Body of the getters; `function` is the getter.
 template <typename T, typename Get>
-int get(CeedElemRestriction rstr, T *value, Get &&getter, const char *function = __builtin_FUNCTION()) {
+int get(CeedElemRestriction rstr, T *value, const char *name, Get &&getter,
+        const char *function = __builtin_FUNCTION()) {
   return hg::guard(
-      hg::ceed_of(rstr), [&] { *value = getter(hg::deref(rstr, "CeedElemRestriction")); }, function);
+      hg::ceed_of(rstr), [&] { hg::result(value, name) = getter(hg::deref(rstr, "CeedElemRestriction")); }, function);
 }
 
 /// Body of the getters of tables: grants read access on the host.
@@ -27,7 +28,7 @@ int get_array(CeedElemRestriction rstr, CeedMemType mem_type, const T **array, G
         hg::require(mem_type == CEED_MEM_HOST, CEED_ERROR_UNSUPPORTED,
                     "CeedElemRestriction: memory type is CEED_MEM_DEVICE; expected CEED_MEM_HOST");
         const std::scoped_lock lock(r.access);
-        *array = getter(r);
+        hg::result(array, "array") = getter(r);
         r.num_readers++;
       },
       function);
@@ -43,8 +44,8 @@ int restore_array(CeedElemRestriction rstr, const T **array, const char *what,
         const std::scoped_lock lock(r.access);
         hg::require(r.num_readers > 0, CEED_ERROR_ACCESS,
                     [&] { return hg::text("Cannot restore CeedElemRestriction %s, access was not granted", what); });
+        hg::result(array, "array") = nullptr;
         r.num_readers--;
-        *array = nullptr;
       },
       function);
 }
@@ -151,19 +152,19 @@ void CeedElemRestriction_private::view(FILE *stream) const {
 }
 
 int CeedElemRestrictionView(CeedElemRestriction rstr, FILE *stream) {
-  return CeedObjectView(rstr, stream);
+  return hg::view_object(rstr, stream);
 }
 
 int CeedElemRestrictionSetNumViewTabs(CeedElemRestriction rstr, CeedInt num_tabs) {
-  return CeedObjectSetNumViewTabs(rstr, num_tabs);
+  return hg::set_view_tabs(rstr, num_tabs);
 }
 
 int CeedElemRestrictionGetNumViewTabs(CeedElemRestriction rstr, CeedInt *num_tabs) {
-  return CeedObjectGetNumViewTabs(rstr, num_tabs);
+  return hg::get_view_tabs(rstr, num_tabs);
 }
 
 int CeedElemRestrictionGetCeed(CeedElemRestriction rstr, Ceed *ceed) {
-  return CeedObjectGetCeed(rstr, ceed);
+  return hg::get_ceed(rstr, ceed);
 }
 
 Ceed CeedElemRestrictionReturnCeed(CeedElemRestriction rstr) {
@@ -171,42 +172,42 @@ Ceed CeedElemRestrictionReturnCeed(CeedElemRestriction rstr) {
 }
 
 int CeedElemRestrictionGetCompStride(CeedElemRestriction rstr, CeedInt *comp_stride) {
-  return get(rstr, comp_stride, [](auto &r) { return r.comp_stride; });
+  return get(rstr, comp_stride, "comp_stride", [](auto &r) { return r.comp_stride; });
 }
 
 int CeedElemRestrictionGetNumElements(CeedElemRestriction rstr, CeedInt *num_elem) {
-  return get(rstr, num_elem, [](auto &r) { return r.num_elem; });
+  return get(rstr, num_elem, "num_elem", [](auto &r) { return r.num_elem; });
 }
 
 int CeedElemRestrictionGetElementSize(CeedElemRestriction rstr, CeedInt *elem_size) {
-  return get(rstr, elem_size, [](auto &r) { return r.elem_size; });
+  return get(rstr, elem_size, "elem_size", [](auto &r) { return r.elem_size; });
 }
 
 int CeedElemRestrictionGetLVectorSize(CeedElemRestriction rstr, CeedSize *l_size) {
-  return get(rstr, l_size, [](auto &r) { return r.l_size; });
+  return get(rstr, l_size, "l_size", [](auto &r) { return r.l_size; });
 }
 
 int CeedElemRestrictionGetEVectorSize(CeedElemRestriction rstr, CeedSize *e_size) {
-  return get(rstr, e_size, [](auto &r) { return r.e_size; });
+  return get(rstr, e_size, "e_size", [](auto &r) { return r.e_size; });
 }
 
 int CeedElemRestrictionGetNumComponents(CeedElemRestriction rstr, CeedInt *num_comp) {
-  return get(rstr, num_comp, [](auto &r) { return r.num_comp; });
+  return get(rstr, num_comp, "num_comp", [](auto &r) { return r.num_comp; });
 }
 
 int CeedElemRestrictionGetNumBlocks(CeedElemRestriction rstr, CeedInt *num_block) {
-  return get(rstr, num_block, [](auto &r) { return r.num_block(); });
+  return get(rstr, num_block, "num_block", [](auto &r) { return r.num_block(); });
 }
 
 int CeedElemRestrictionGetBlockSize(CeedElemRestriction rstr, CeedInt *block_size) {
-  return get(rstr, block_size, [](auto &r) { return r.block_size; });
+  return get(rstr, block_size, "block_size", [](auto &r) { return r.block_size; });
 }
 
 int CeedElemRestrictionGetNumPoints(CeedElemRestriction rstr, CeedInt *num_points) {
   return hg::guard(hg::ceed_of(rstr), [&] {
     auto &r = hg::deref_restriction(rstr);
     require_points(r);
-    *num_points = r.num_points;
+    hg::result(num_points, "num_points") = r.num_points;
   });
 }
 
@@ -215,16 +216,24 @@ int CeedElemRestrictionGetNumPointsInElement(CeedElemRestriction rstr, CeedInt e
     auto &r = hg::deref_restriction(rstr);
     require_points(r);
     require_elem(r, elem);
-    *num_points = r.num_nodes(elem);
+    hg::result(num_points, "num_points") = r.num_nodes(elem);
   });
 }
 
 int CeedElemRestrictionGetMaxPointsInElement(CeedElemRestriction rstr, CeedInt *max_points) {
-  return CeedElemRestrictionGetMinMaxPointsInElement(rstr, nullptr, max_points);
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_points(r);
+    hg::result(max_points, "max_points") = r.elem_size;
+  });
 }
 
 int CeedElemRestrictionGetMinPointsInElement(CeedElemRestriction rstr, CeedInt *min_points) {
-  return CeedElemRestrictionGetMinMaxPointsInElement(rstr, min_points, nullptr);
+  return hg::guard(hg::ceed_of(rstr), [&] {
+    auto &r = hg::deref_restriction(rstr);
+    require_points(r);
+    hg::result(min_points, "min_points") = ::min_points(r);
+  });
 }
 
 int CeedElemRestrictionGetMinMaxPointsInElement(CeedElemRestriction rstr, CeedInt *min_points, CeedInt *max_points) {
@@ -237,15 +246,15 @@ int CeedElemRestrictionGetMinMaxPointsInElement(CeedElemRestriction rstr, CeedIn
 }
 
 int CeedElemRestrictionGetType(CeedElemRestriction rstr, CeedRestrictionType *rstr_type) {
-  return get(rstr, rstr_type, [](auto &r) { return r.type; });
+  return get(rstr, rstr_type, "rstr_type", [](auto &r) { return r.type; });
 }
 
 int CeedElemRestrictionIsStrided(CeedElemRestriction rstr, bool *is_strided) {
-  return get(rstr, is_strided, [](auto &r) { return r.is_strided(); });
+  return get(rstr, is_strided, "is_strided", [](auto &r) { return r.is_strided(); });
 }
 
 int CeedElemRestrictionIsAtPoints(CeedElemRestriction rstr, bool *is_points) {
-  return get(rstr, is_points, [](auto &r) { return r.is_points(); });
+  return get(rstr, is_points, "is_points", [](auto &r) { return r.is_points(); });
 }
 
 int CeedElemRestrictionAtPointsAreCompatible(CeedElemRestriction rstr_a, CeedElemRestriction rstr_b,
@@ -255,8 +264,9 @@ int CeedElemRestrictionAtPointsAreCompatible(CeedElemRestriction rstr_a, CeedEle
     auto &b = hg::deref_restriction(rstr_b);
     require_points(a);
     require_points(b);
-    *are_compatible = a.num_elem == b.num_elem && a.num_offsets() == b.num_offsets() &&
-                      (a.offsets == b.offsets || std::equal(a.offsets, a.offsets + a.num_offsets(), b.offsets));
+    hg::result(are_compatible, "are_compatible") =
+        a.num_elem == b.num_elem && a.num_offsets() == b.num_offsets() &&
+        (a.offsets == b.offsets || std::equal(a.offsets, a.offsets + a.num_offsets(), b.offsets));
   });
 }
 
@@ -264,7 +274,7 @@ int CeedElemRestrictionGetStrides(CeedElemRestriction rstr, CeedInt strides[3]) 
   return hg::guard(hg::ceed_of(rstr), [&] {
     auto &r = hg::deref_restriction(rstr);
     require_strided(r);
-    std::copy_n(r.has_backend_strides ? CEED_STRIDES_BACKEND : r.strides, 3, strides);
+    std::copy_n(r.has_backend_strides ? CEED_STRIDES_BACKEND : r.strides, 3, &hg::result(strides, "strides"));
   });
 }
 
@@ -272,7 +282,7 @@ int CeedElemRestrictionHasBackendStrides(CeedElemRestriction rstr, bool *has_bac
   return hg::guard(hg::ceed_of(rstr), [&] {
     auto &r = hg::deref_restriction(rstr);
     require_strided(r);
-    *has_backend_strides = r.has_backend_strides;
+    hg::result(has_backend_strides, "has_backend_strides") = r.has_backend_strides;
   });
 }
 
@@ -302,19 +312,20 @@ int CeedElemRestrictionRestoreCurlOrientations(CeedElemRestriction rstr, const C
 }
 
 int CeedElemRestrictionGetElementMap(CeedElemRestriction rstr, const CeedElementMap **map) {
-  return hg::guard(hg::ceed_of(rstr), [&] { *map = &hg::deref_restriction(rstr); });
+  return hg::guard(hg::ceed_of(rstr), [&] { hg::result(map, "map") = &hg::deref_restriction(rstr); });
 }
 
 int CeedElemRestrictionGetLLayout(CeedElemRestriction rstr, CeedInt layout[3]) {
   return hg::guard(hg::ceed_of(rstr), [&] {
     auto &r = hg::deref_restriction(rstr);
     require_strided(r);
-    std::copy_n(r.strides, 3, layout);
+    std::copy_n(r.strides, 3, &hg::result(layout, "layout"));
   });
 }
 
 int CeedElemRestrictionGetELayout(CeedElemRestriction rstr, CeedInt layout[3]) {
-  return hg::guard(hg::ceed_of(rstr), [&] { std::copy_n(hg::deref_restriction(rstr).e_layout, 3, layout); });
+  return hg::guard(hg::ceed_of(rstr),
+                   [&] { std::copy_n(hg::deref_restriction(rstr).e_layout, 3, &hg::result(layout, "layout")); });
 }
 
 int CeedElemRestrictionGetAtPointsElementOffset(CeedElemRestriction rstr, CeedInt elem, CeedSize *elem_offset) {
@@ -322,14 +333,16 @@ int CeedElemRestrictionGetAtPointsElementOffset(CeedElemRestriction rstr, CeedIn
     auto &r = hg::deref_restriction(rstr);
     require_points(r);
     require_elem(r, elem);
-    *elem_offset = r.e_layout[2] > 0 ? static_cast<CeedSize>(elem) * r.e_layout[2]
-                                     : (static_cast<CeedSize>(r.offsets[elem]) - r.offsets[0]) * r.num_comp;
+    hg::result(elem_offset, "elem_offset") = r.e_layout[2] > 0
+                                                 ? static_cast<CeedSize>(elem) * r.e_layout[2]
+                                                 : (static_cast<CeedSize>(r.offsets[elem]) - r.offsets[0]) * r.num_comp;
   });
 }
 
 int CeedElemRestrictionSetELayout(CeedElemRestriction rstr, CeedInt layout[3]) {
   return hg::guard(hg::ceed_of(rstr), [&] {
     auto &r = hg::deref_restriction(rstr);
+    hg::require_argument(layout, "layout (three strides)");
     require_new(r);
     std::copy_n(layout, 3, r.e_layout);
   });
@@ -339,6 +352,7 @@ int CeedElemRestrictionSetLLayout(CeedElemRestriction rstr, CeedInt layout[3]) {
   return hg::guard(hg::ceed_of(rstr), [&] {
     auto &r = hg::deref_restriction(rstr);
     require_strided(r);
+    hg::require_argument(layout, "layout (three strides)");
     require_new(r);
     hg::require(r.has_backend_strides, CEED_ERROR_MINOR,
                 "CeedElemRestriction has the strides that the user gave; expected CEED_STRIDES_BACKEND");
@@ -362,7 +376,7 @@ int CeedElemRestrictionSetAtPointsEVectorSize(CeedElemRestriction rstr, CeedSize
 }
 
 int CeedElemRestrictionGetData(CeedElemRestriction rstr, void *data) {
-  return get(rstr, static_cast<void **>(data), [](auto &r) { return r.data; });
+  return get(rstr, static_cast<void **>(data), "data", [](auto &r) { return r.data; });
 }
 
 int CeedElemRestrictionSetData(CeedElemRestriction rstr, void *data) {
@@ -372,7 +386,8 @@ int CeedElemRestrictionSetData(CeedElemRestriction rstr, void *data) {
 int CeedElemRestrictionGetFlopsEstimate(CeedElemRestriction rstr, CeedTransposeMode t_mode, CeedSize *flops) {
   // A band multiplies each entry of the E-vector, and all but the first add to it; scattering adds it once for each
   // band.
-  return get(rstr, flops, [&](auto &r) -> CeedSize {
+  return get(rstr, flops, "flops", [&](auto &r) -> CeedSize {
+    hg::require_transpose_mode(t_mode, "CeedElemRestriction");
     const CeedSize adds = t_mode == CEED_TRANSPOSE ? std::max(r.num_bands, 1) : std::max(r.num_bands - 1, 0);
     return r.e_size * (r.num_bands + adds);
   });

@@ -24,7 +24,8 @@ CeedInt narrow(CeedSize product, const char *what, hg::Where where = hg::Where::
 Created make(Ceed ceed, CeedRestrictionType type, CeedInt num_elem, CeedInt num_comp, CeedSize l_size,
              const CeedElemRestriction *rstr, hg::Where where = hg::Where::current()) {
   hg::deref(ceed, "Ceed", where);
-  hg::require(rstr != nullptr, CEED_ERROR_MINOR, "CeedElemRestriction: the address of the handle is NULL", where);
+  hg::require(rstr != nullptr, CEED_ERROR_MINOR,
+              "CeedElemRestriction: the address of the handle is NULL; expected where it goes", where);
   hg::require(
       num_elem >= 0, CEED_ERROR_DIMENSION,
       [&] {

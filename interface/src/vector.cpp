@@ -17,6 +17,28 @@ Sentinel active, none;
 
 CeedRequest immediate = nullptr, ordered = nullptr;
 
+void view_range(CeedVector_private &v, CeedSize start, CeedSize stop, CeedInt step, const char *fp_fmt, FILE *stream) {
+  hg::require(stream != nullptr, CEED_ERROR_MINOR, "The stream is NULL; expected an open file");
+  hg::require(step != 0, CEED_ERROR_MINOR, "View range 'step' must be nonzero");
+  hg::require(start >= 0 && start <= v.length, CEED_ERROR_DIMENSION,
+              [&] { return hg::text("View range starts at %td; expected an index in [0, %td]", start, v.length); });
+  const hg::Lines line(stream, v.num_view_tabs);
+  line(0, "CeedVector length %td", v.length);
+  if (v.is_sentinel) return;
+  if (start != 0 || stop != v.length || step != 1) {
+    line(1, "start: %td", start);
+    line(1, "stop:  %td", stop);
+    line(1, "step:  %" CeedInt_FMT, step);
+  }
+  const CeedSize end = stop < 0 || stop > v.length ? v.length : stop;
+  const char *format = fp_fmt != nullptr ? fp_fmt : "%g";
+  const hg::ReadArray array(&v);
+  for (CeedSize i = start; step > 0 ? i < end : i > end; i += step) {
+    if (i < v.length) line(1, format, array[i]);
+  }
+  if (end < v.length) line(1, "...");
+}
+
 }  // namespace
 
 const CeedVector CEED_VECTOR_ACTIVE = &active.object;
@@ -37,7 +59,7 @@ void CeedVector_private::check_destroyable() const {
 }
 
 void CeedVector_private::view(FILE *stream) const {
-  hg::check(CeedVectorView(const_cast<CeedVector>(this), "%12.8f", stream));
+  view_range(const_cast<CeedVector_private &>(*this), 0, length, 1, "%12.8f", stream);
 }
 
 namespace hg {
@@ -84,7 +106,8 @@ void require_values(CeedVector_private &vec, const char *what, Where where) {
 int CeedVectorCreate(Ceed ceed, CeedSize len, CeedVector *vec) {
   return hg::guard(ceed, [&] {
     hg::deref(ceed, "Ceed");
-    hg::require(vec != nullptr, CEED_ERROR_MINOR, "CeedVectorCreate: the address of the vector is NULL");
+    hg::require(vec != nullptr, CEED_ERROR_MINOR,
+                "CeedVectorCreate: the address of the vector is NULL; expected where it goes");
     hg::require(len >= 0, CEED_ERROR_DIMENSION,
                 [&] { return hg::text("Length of a CeedVector is %td; expected 0 or more", len); });
     hg::require(ceed->ops.vector.create != nullptr, CEED_ERROR_UNSUPPORTED,
@@ -170,7 +193,7 @@ int CeedVectorGetArray(CeedVector vec, CeedMemType mem_type, CeedScalar **array)
     hg::require_writable(v);
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorGetArray");
     hg::require_values(v, "CeedVector");
-    hg::check(v.ops().get_array(vec, mem_type, array));
+    hg::check(v.ops().get_array(vec, mem_type, &hg::result(array, "array")));
     v.state++;
   });
 }
@@ -182,7 +205,7 @@ int CeedVectorGetArrayRead(CeedVector vec, CeedMemType mem_type, const CeedScala
     hg::require_readable(v);
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorGetArrayRead");
     hg::require_values(v, "CeedVector");
-    hg::check(v.ops().get_array_read(vec, mem_type, array));
+    hg::check(v.ops().get_array_read(vec, mem_type, &hg::result(array, "array")));
     v.num_readers++;
   });
 }
@@ -193,7 +216,7 @@ int CeedVectorGetArrayWrite(CeedVector vec, CeedMemType mem_type, CeedScalar **a
     const std::scoped_lock lock(v.access);
     hg::require_writable(v);
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorGetArrayWrite");
-    hg::check(v.ops().get_array_write(vec, mem_type, array));
+    hg::check(v.ops().get_array_write(vec, mem_type, &hg::result(array, "array")));
     v.state++;
   });
 }
@@ -224,11 +247,11 @@ int CeedVectorRestoreArrayRead(CeedVector vec, const CeedScalar **array) {
 }
 
 int CeedVectorGetLength(CeedVector vec, CeedSize *length) {
-  return hg::guard(hg::ceed_of(vec), [&] { *length = hg::deref(vec, "CeedVector").length; });
+  return hg::guard(hg::ceed_of(vec), [&] { hg::result(length, "length") = hg::deref(vec, "CeedVector").length; });
 }
 
 int CeedVectorGetCeed(CeedVector vec, Ceed *ceed) {
-  return CeedObjectGetCeed(vec, ceed);
+  return hg::get_ceed(vec, ceed);
 }
 
 Ceed CeedVectorReturnCeed(CeedVector vec) {
@@ -236,46 +259,29 @@ Ceed CeedVectorReturnCeed(CeedVector vec) {
 }
 
 int CeedVectorSetNumViewTabs(CeedVector vec, CeedInt num_tabs) {
-  return CeedObjectSetNumViewTabs(vec, num_tabs);
+  return hg::set_view_tabs(vec, num_tabs);
 }
 
 int CeedVectorGetNumViewTabs(CeedVector vec, CeedInt *num_tabs) {
-  return CeedObjectGetNumViewTabs(vec, num_tabs);
+  return hg::get_view_tabs(vec, num_tabs);
 }
 
 int CeedVectorViewRange(CeedVector vec, CeedSize start, CeedSize stop, CeedInt step, const char *fp_fmt, FILE *stream) {
-  return hg::guard(hg::ceed_of(vec), [&] {
-    auto &v = hg::deref(vec, "CeedVector");
-    hg::require(stream != nullptr, CEED_ERROR_MINOR, "CeedVectorView: the stream is NULL; expected an open file");
-    hg::require(step != 0, CEED_ERROR_MINOR, "View range 'step' must be nonzero");
-    hg::require(start >= 0 && start <= v.length, CEED_ERROR_DIMENSION,
-                [&] { return hg::text("View range starts at %td; expected an index in [0, %td]", start, v.length); });
-    const hg::Lines line(stream, v.num_view_tabs);
-    line(0, "CeedVector length %td", v.length);
-    if (v.is_sentinel) return;
-    if (start != 0 || stop != v.length || step != 1) {
-      line(1, "start: %td", start);
-      line(1, "stop:  %td", stop);
-      line(1, "step:  %" CeedInt_FMT, step);
-    }
-    const CeedSize end = stop < 0 || stop > v.length ? v.length : stop;
-    const char *format = fp_fmt != nullptr ? fp_fmt : "%g";
-    const hg::ReadArray array(vec);
-    for (CeedSize i = start; step > 0 ? i < end : i > end; i += step) {
-      if (i < v.length) line(1, format, array[i]);
-    }
-    if (end < v.length) line(1, "...");
-  });
+  return hg::guard(hg::ceed_of(vec),
+                   [&] { view_range(hg::deref(vec, "CeedVector"), start, stop, step, fp_fmt, stream); });
 }
 
 int CeedVectorView(CeedVector vec, const char *fp_fmt, FILE *stream) {
-  return CeedVectorViewRange(vec, 0, vec != nullptr ? vec->length : 0, 1, fp_fmt, stream);
+  return hg::guard(hg::ceed_of(vec), [&] {
+    auto &v = hg::deref(vec, "CeedVector");
+    view_range(v, 0, v.length, 1, fp_fmt, stream);
+  });
 }
 
 int CeedVectorHasValidArray(CeedVector vec, bool *has_valid_array) {
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
-    hg::check(v.ops().has_valid_array(vec, has_valid_array));
+    hg::check(v.ops().has_valid_array(vec, &hg::result(has_valid_array, "has_valid_array")));
   });
 }
 
@@ -283,16 +289,18 @@ int CeedVectorHasBorrowedArrayOfType(CeedVector vec, CeedMemType mem_type, bool 
   return hg::guard(hg::ceed_of(vec), [&] {
     auto &v = hg::deref_vector(vec);
     hg::require_mem_type(*v.ceed, mem_type, "CeedVectorHasBorrowedArrayOfType");
-    hg::check(v.ops().has_borrowed_array(vec, mem_type, has_borrowed_array_of_type));
+    bool &has_borrowed = hg::result(has_borrowed_array_of_type, "has_borrowed_array_of_type");
+    hg::check(v.ops().has_borrowed_array(vec, mem_type, &has_borrowed));
   });
 }
 
 int CeedVectorGetState(CeedVector vec, uint64_t *state) {
-  return hg::guard(hg::ceed_of(vec), [&] { *state = hg::deref(vec, "CeedVector").state; });
+  return hg::guard(hg::ceed_of(vec), [&] { hg::result(state, "state") = hg::deref(vec, "CeedVector").state; });
 }
 
 int CeedVectorGetData(CeedVector vec, void *data) {
-  return hg::guard(hg::ceed_of(vec), [&] { *static_cast<void **>(data) = hg::deref(vec, "CeedVector").data; });
+  return hg::guard(hg::ceed_of(vec),
+                   [&] { hg::result(static_cast<void **>(data), "data") = hg::deref(vec, "CeedVector").data; });
 }
 
 int CeedVectorSetData(CeedVector vec, void *data) {
@@ -302,7 +310,7 @@ int CeedVectorSetData(CeedVector vec, void *data) {
 // All work is complete when a function returns, so there is nothing to wait for.
 int CeedRequestWait(CeedRequest *req) {
   return hg::guard(nullptr, [&] {
-    hg::require(req != nullptr, CEED_ERROR_MINOR, "CeedRequestWait: the address of the request is NULL");
+    hg::require(req != nullptr, CEED_ERROR_MINOR, "CeedRequestWait: the address of the request is NULL; expected one");
     *req = nullptr;
   });
 }

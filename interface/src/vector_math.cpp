@@ -121,7 +121,7 @@ int CeedVectorNorm(CeedVector vec, CeedNormType type, CeedScalar *norm) {
     });
     hg::require_readable(v);
     hg::require_values(v, "CeedVector");
-    *norm = 0;
+    hg::result(norm, "norm") = 0;
     if (v.length == 0) return;
     if (v.ops().norm != nullptr) return hg::check(v.ops().norm(vec, type, norm));
     const ReadArray x(vec);

@@ -353,7 +353,7 @@ CEED_EXTERN int CeedQFunctionContextSetDouble(CeedQFunctionContext ctx, CeedCont
 /// num_values may be NULL.
 CEED_EXTERN int CeedQFunctionContextGetDoubleRead(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
                                                   size_t *num_values, const double **values);
-/// Ends the access, and sets *values to NULL.
+/// Ends the access, and sets *values to NULL; `values` may be NULL.
 CEED_EXTERN int CeedQFunctionContextRestoreDoubleRead(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
                                                       const double **values);
 /// Sets a field of int32_t to as many `values` as are registered; they are copied.
@@ -363,7 +363,7 @@ CEED_EXTERN int CeedQFunctionContextSetInt32(CeedQFunctionContext ctx, CeedConte
 /// num_values may be NULL.
 CEED_EXTERN int CeedQFunctionContextGetInt32Read(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
                                                  size_t *num_values, const int32_t **values);
-/// Ends the access, and sets *values to NULL.
+/// Ends the access, and sets *values to NULL; `values` may be NULL.
 CEED_EXTERN int CeedQFunctionContextRestoreInt32Read(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
                                                      const int32_t **values);
 /// Sets a field of bool to as many `values` as are registered; they are copied.
@@ -373,7 +373,7 @@ CEED_EXTERN int CeedQFunctionContextSetBoolean(CeedQFunctionContext ctx, CeedCon
 /// num_values may be NULL.
 CEED_EXTERN int CeedQFunctionContextGetBooleanRead(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
                                                    size_t *num_values, const bool **values);
-/// Ends the access, and sets *values to NULL.
+/// Ends the access, and sets *values to NULL; `values` may be NULL.
 CEED_EXTERN int CeedQFunctionContextRestoreBooleanRead(CeedQFunctionContext ctx, CeedContextFieldLabel field_label,
                                                        const bool **values);
 /// Counts one reference more.

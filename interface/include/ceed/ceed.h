@@ -15,13 +15,13 @@
 /// @par Arguments
 /// The first argument is the object that a function is of. A function that makes an object (Create) or asks for
 /// something (Get, Is, Has) stores the handle or the answer at its last argument. Addresses for answers and for new
-/// handles are not NULL, unless a function says that they may be. These mean the same everywhere:
+/// handles, and what goes in, are not NULL unless a function says that they may be. These mean the same everywhere:
 /// - `ceed`: the Ceed that a new object belongs to
 /// - `mem_type`: where an array is; a backend that works on the host takes CEED_MEM_HOST alone
 /// - `copy_mode`: what becomes of an array that is handed over
 /// - `t_mode`: CEED_TRANSPOSE for the way from points to nodes, or from elements to the L-vector
 /// - `eval_mode`: what of a field is meant: its values, a derivative, the weights
-/// - `request`: CEED_REQUEST_IMMEDIATE or CEED_REQUEST_ORDERED; all work is complete on return with either
+/// - `request`: CEED_REQUEST_IMMEDIATE or CEED_REQUEST_ORDERED, or NULL; all work is complete on return with any
 /// - `stream`: an open file, which is written to
 /// - `num_tabs`: the steps, of two spaces each, by which View indents; 0 or more
 ///
@@ -32,7 +32,7 @@
 ///   not set again
 ///
 /// @par Errors of all functions
-/// - CEED_ERROR_INCOMPLETE: a handle, or an array that is read, is NULL.
+/// - CEED_ERROR_INCOMPLETE: a handle, the address for an answer, or an array that is read, is NULL.
 /// - CEED_ERROR_MAJOR: memory is short.
 /// - CEED_ERROR_UNSUPPORTED: the backend does not do this.
 /// - CEED_ERROR_BACKEND: the backend failed, or has no memory of this type.
@@ -160,15 +160,15 @@ CEED_EXTERN int CeedDestroy(Ceed *ceed);
 /// Version `major`.`minor`.`patch` of the interface in the library that is loaded, and whether it is a `release`; any
 /// pointer may be NULL. Never fails.
 CEED_EXTERN int CeedGetVersion(int *major, int *minor, int *patch, bool *release);
-/// Revision from which the library was built, or "unknown". Never fails.
+/// Revision from which the library was built, or "unknown".
 CEED_EXTERN int CeedGetGitVersion(const char **git_version);
-/// Name, version, compiler and options of the library, several lines. Never fails.
+/// Name, version, compiler and options of the library, several lines.
 CEED_EXTERN int CeedGetBuildConfiguration(const char **build_config);
 /// Says whether compilation for devices at run time is to use clang (`isClang`).
 CEED_EXTERN int CeedSetIsClang(Ceed ceed, bool isClang);
 /// What CeedSetIsClang() said; false for a new Ceed.
 CEED_EXTERN int CeedGetIsClang(Ceed ceed, bool *isClang);
-/// Precision of CeedScalar in the library that is loaded. Never fails.
+/// Precision of CeedScalar in the library that is loaded.
 CEED_EXTERN int CeedGetScalarType(CeedScalarType *scalar_type);
 /// Memory in which the backend works: arrays there are not copied.
 CEED_EXTERN int CeedGetPreferredMemType(Ceed ceed, CeedMemType *type);
@@ -202,9 +202,9 @@ typedef int (*CeedErrorHandler)(Ceed, const char *, int, const char *, int, cons
 /// that of the environment. Error CEED_ERROR_MINOR: it is NULL.
 CEED_EXTERN int CeedSetErrorHandler(Ceed ceed, CeedErrorHandler handler);
 /// The message stored by CeedErrorStore(), or "No error message stored"; valid until it is reset. `ceed` may be NULL:
-/// the message of this thread that came without a Ceed. Never fails.
+/// the message of this thread that came without a Ceed.
 CEED_EXTERN int CeedGetErrorMessage(Ceed ceed, const char **err_msg);
-/// Forgets the message that CeedGetErrorMessage() gives, and sets *err_msg to NULL. Never fails.
+/// Forgets the message that CeedGetErrorMessage() gives, and sets *err_msg to NULL.
 CEED_EXTERN int CeedResetErrorMessage(Ceed ceed, const char **err_msg);
 /// Handler that does nothing: the caller looks at the code.
 CEED_EXTERN int CeedErrorReturn(Ceed ceed, const char *filename, int line_no, const char *func, int err_code,
@@ -290,7 +290,7 @@ CEED_EXTERN int CeedVectorGetArrayRead(CeedVector vec, CeedMemType mem_type, con
 /// Write access until CeedVectorRestoreArray(): the contents are undefined and all of them must be written. The vector
 /// needs no values before, and keeps the `array`.
 CEED_EXTERN int CeedVectorGetArrayWrite(CeedVector vec, CeedMemType mem_type, CeedScalar **array);
-/// Ends write access and sets *array to NULL; the array is the vector's again.
+/// Ends write access and sets *array to NULL; the array is the vector's again. `array` may be NULL, here and below.
 CEED_EXTERN int CeedVectorRestoreArray(CeedVector vec, CeedScalar **array);
 /// Ends a read access and sets *array to NULL; each Get has its own Restore.
 CEED_EXTERN int CeedVectorRestoreArrayRead(CeedVector vec, const CeedScalar **array);
@@ -686,7 +686,7 @@ CEED_EXTERN Ceed CeedQFunctionReturnCeed(CeedQFunction qf);
 CEED_EXTERN int CeedQFunctionApply(CeedQFunction qf, CeedInt Q, CeedVector *u, CeedVector *v);
 /// Drops one reference and sets *qf to NULL; a NULL handle is fine.
 CEED_EXTERN int CeedQFunctionDestroy(CeedQFunction *qf);
-/// Name of a field. Functions of a field never fail; the field is not NULL.
+/// Name of a field. Functions of a field fail where that is NULL, with CEED_ERROR_INCOMPLETE.
 CEED_EXTERN int CeedQFunctionFieldGetName(CeedQFunctionField qf_field, const char **field_name);
 /// Values of the field at a point.
 CEED_EXTERN int CeedQFunctionFieldGetSize(CeedQFunctionField qf_field, CeedInt *size);
@@ -833,7 +833,7 @@ CEED_EXTERN int CeedOperatorAtPointsGetPoints(CeedOperator op, CeedElemRestricti
                                               CeedVector *point_coords);
 /// Whether it was made by CeedOperatorCreateAtPoints().
 CEED_EXTERN int CeedOperatorIsAtPoints(CeedOperator op, bool *is_at_points);
-/// Adds `sub_op`, which is counted, to `composite_op`. It may be composite itself.
+/// Adds `sub_op`, which is counted, to `composite_op`. It may be composite itself, but not contain `composite_op`.
 CEED_EXTERN int CeedOperatorCompositeAddSub(CeedOperator composite_op, CeedOperator sub_op);
 /// Number of operators that were added.
 CEED_EXTERN int CeedOperatorCompositeGetNumSub(CeedOperator op, CeedInt *num_suboperators);
@@ -960,7 +960,7 @@ CEED_EXTERN int CeedOperatorGetFlopsEstimate(CeedOperator op, CeedSize *flops);
 /// Context of the QFunction of a single operator, counted; *ctx is NULL where it has none.
 CEED_EXTERN int CeedOperatorGetContext(CeedOperator op, CeedQFunctionContext *ctx);
 /// Label of a registered context field, for a composite operator of that field in all its sub-operators, which register
-/// it alike; *field_label is NULL where there is none. It lives as long as the context or the composite.
+/// it alike when it is used; *field_label is NULL where there is none. It lives as long as what it is of.
 CEED_EXTERN int CeedOperatorGetContextFieldLabel(CeedOperator op, const char *field_name,
                                                  CeedContextFieldLabel *field_label);
 /// Sets a field of double to as many `values` as are registered; they are copied. For a composite, into all parts that
@@ -970,7 +970,7 @@ CEED_EXTERN int CeedOperatorSetContextDouble(CeedOperator op, CeedContextFieldLa
 /// a composite to that of its first part with the field. num_values may be NULL.
 CEED_EXTERN int CeedOperatorGetContextDoubleRead(CeedOperator op, CeedContextFieldLabel field_label,
                                                  size_t *num_values, const double **values);
-/// Ends the access, and sets *values to NULL.
+/// Ends the access, and sets *values to NULL; `values` may be NULL.
 CEED_EXTERN int CeedOperatorRestoreContextDoubleRead(CeedOperator op, CeedContextFieldLabel field_label,
                                                      const double **values);
 /// Sets a field of int32_t to as many `values` as are registered; they are copied. For a composite, into all parts that
@@ -980,7 +980,7 @@ CEED_EXTERN int CeedOperatorSetContextInt32(CeedOperator op, CeedContextFieldLab
 /// a composite to that of its first part with the field. num_values may be NULL.
 CEED_EXTERN int CeedOperatorGetContextInt32Read(CeedOperator op, CeedContextFieldLabel field_label,
                                                 size_t *num_values, const int32_t **values);
-/// Ends the access, and sets *values to NULL.
+/// Ends the access, and sets *values to NULL; `values` may be NULL.
 CEED_EXTERN int CeedOperatorRestoreContextInt32Read(CeedOperator op, CeedContextFieldLabel field_label,
                                                     const int32_t **values);
 /// Sets a field of bool to as many `values` as are registered; they are copied. For a composite, into all parts that
@@ -990,7 +990,7 @@ CEED_EXTERN int CeedOperatorSetContextBoolean(CeedOperator op, CeedContextFieldL
 /// composite to that of its first part with the field. num_values may be NULL.
 CEED_EXTERN int CeedOperatorGetContextBooleanRead(CeedOperator op, CeedContextFieldLabel field_label,
                                                   size_t *num_values, const bool **values);
-/// Ends the access, and sets *values to NULL.
+/// Ends the access, and sets *values to NULL; `values` may be NULL.
 CEED_EXTERN int CeedOperatorRestoreContextBooleanRead(CeedOperator op, CeedContextFieldLabel field_label,
                                                       const bool **values);
 /// out = A in. Passive outputs are written. It returns the code of the QFunction where that fails.

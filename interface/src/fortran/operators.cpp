@@ -126,6 +126,9 @@ int add_field(const int *qf, const std::string &name, CeedInt size, CeedEvalMode
 using namespace hg::fortran;
 
 int CeedQFunctionGetInnerContext(CeedQFunction qf, CeedQFunctionContext *ctx) {
+  CeedCheck(qf != nullptr, nullptr, CEED_ERROR_INCOMPLETE, "CeedQFunction is NULL; expected a live object");
+  CeedCheck(ctx != nullptr, CeedQFunctionReturnCeed(qf), CEED_ERROR_INCOMPLETE,
+            "Argument 'ctx' is NULL; expected where its value goes");
   CeedQFunctionUser function = nullptr;
   CeedCall(CeedQFunctionGetUserFunction(qf, &function));
   if (function != call_subroutine) return CeedQFunctionGetContext(qf, ctx);
@@ -154,6 +157,9 @@ int with_inner_context(CeedQFunction qf, F &&f, Other &&other) {
 }  // namespace
 
 int CeedQFunctionGetInnerContextData(CeedQFunction qf, CeedMemType mem_type, void *data) {
+  CeedCheck(qf != nullptr, nullptr, CEED_ERROR_INCOMPLETE, "CeedQFunction is NULL; expected a live object");
+  CeedCheck(data != nullptr, CeedQFunctionReturnCeed(qf), CEED_ERROR_INCOMPLETE,
+            "Argument 'data' is NULL; expected where its value goes");
   *static_cast<void **>(data) = nullptr;
   return with_inner_context(
       qf, [&](CeedQFunctionContext inner) { return CeedQFunctionContextGetData(inner, mem_type, data); },
@@ -161,6 +167,7 @@ int CeedQFunctionGetInnerContextData(CeedQFunction qf, CeedMemType mem_type, voi
 }
 
 int CeedQFunctionRestoreInnerContextData(CeedQFunction qf, void *data) {
+  CeedCheck(qf != nullptr, nullptr, CEED_ERROR_INCOMPLETE, "CeedQFunction is NULL; expected a live object");
   return with_inner_context(
       qf, [&](CeedQFunctionContext inner) { return CeedQFunctionContextRestoreData(inner, data); },
       [&] { return CeedQFunctionRestoreContextData(qf, data); });
