@@ -236,7 +236,7 @@ std::optional<Target> target_of(CeedOperator op, bool is_block) {
   const char *what = is_block ? "point-block diagonal" : "diagonal";
   CeedSize in = -1, out = -1;
   hg::check_ready(hg::deref(op, "CeedOperator"));
-  if (op->is_composite && op->subs.empty()) return {};
+  if (op->is_empty()) return {};
   hg::check(CeedOperatorGetActiveVectorLengths(op, &in, &out));
   require(in >= 0 && out >= 0, CEED_ERROR_INCOMPATIBLE, [&] {
     return text("CeedOperator '%s' has no active %s; a %s needs an active input and an active output", op->shown_name(),
@@ -313,6 +313,10 @@ int CeedOperatorLinearAssembleAddPointBlockDiagonal(CeedOperator op, CeedVector 
 int CeedOperatorLinearAssemblePointBlockDiagonalSymbolic(CeedOperator op, CeedSize *num_entries, CeedInt **rows,
                                                          CeedInt **cols) {
   return hg::guard(hg::ceed_of(op), [&] {
+    hg::deref(op, "CeedOperator");
+    hg::require_argument(num_entries, "num_entries (where their number goes)");
+    hg::require_argument(rows, "rows (where the array goes)");
+    hg::require_argument(cols, "cols (where the array goes)");
     const Target target = target_of(op, true).value_or(Target{0, {}});
     hg::require_index_range(*op);
     auto indices = hg::allocate_indices(*op, target.length);

@@ -152,6 +152,7 @@ int get_field(CeedQFunctionContext ctx, CeedContextFieldLabel label, CeedContext
       hg::ceed_of(ctx),
       [&] {
         auto &c = deref_context(ctx);
+        const std::scoped_lock lock(c.access);
         require_readable(c);
         hg::result(values, "values") = static_cast<const T *>(field_values(c, label, type));
         if (num_values != nullptr) *num_values = label->num_values;

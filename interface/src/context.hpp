@@ -14,8 +14,6 @@ struct CeedContextFieldLabel_private {
   std::string name, description;
   CeedContextFieldType type = CEED_CONTEXT_FIELD_DOUBLE;
   std::size_t offset = 0, num_values = 0, size = 0;
-  /// For composite operators: the label in each sub-operator, NULL where it lacks the field.
-  std::vector<CeedContextFieldLabel> sub_labels;
 };
 
 struct CeedQFunctionContext_private final : CeedObject_private {

@@ -7,18 +7,20 @@
 
 namespace {
 
-hg::Ref<CeedOperator_private> create(Ceed ceed) {
+hg::Ref<CeedOperator_private> create(Ceed ceed, const CeedOperator *handle) {
   hg::deref(ceed, "Ceed");
+  hg::require_argument(handle, "op (where the handle goes)");
   auto op = hg::Ref<CeedOperator_private>::adopt(new CeedOperator_private);
   op->ceed = hg::Ref<Ceed_private>(ceed);
   return op;
 }
 
-hg::Ref<CeedOperator_private> create_single(Ceed ceed, CeedQFunction qf, bool is_at_points) {
+hg::Ref<CeedOperator_private> create_single(Ceed ceed, CeedQFunction qf, bool is_at_points,
+                                            const CeedOperator *handle) {
   hg::deref(qf, "QFunction of the operator");
   hg::require(!qf->is_sentinel, CEED_ERROR_MINOR, "The operator's QFunction is CEED_QFUNCTION_NONE; expected a QFunction");
   hg::require_gallery_fields(*qf);
-  auto op = create(ceed);
+  auto op = create(ceed, handle);
   op->is_at_points = is_at_points;
   op->qf = hg::Ref<CeedQFunction_private>(qf);
   qf->is_immutable = true;
@@ -58,29 +60,34 @@ CeedOperator_private::~CeedOperator_private() {
 }
 
 void CeedOperator_private::view(FILE *stream, bool with_fields) const {
-  hg::require(stream != nullptr, CEED_ERROR_MINOR, "CeedOperatorView: the stream is NULL; expected an open file");
   const hg::Lines line(stream, num_view_tabs);
-  line(0, "%sCeedOperator%s%s", is_composite ? "Composite " : "", *full_name() == '\0' ? "" : " - ", full_name());
-  if (!is_composite) {
-    if (with_fields) view_fields(stream, num_view_tabs);
-    return;
+  line(0, "%sCeedOperator%s%s%s", is_composite ? "Composite " : "", is_at_points ? " AtPoints" : "",
+       *full_name() == '\0' ? "" : " - ", full_name());
+  if (is_composite) {
+    view_parts(stream, num_view_tabs, with_fields);
+  } else if (with_fields) {
+    view_fields(stream, num_view_tabs);
   }
+}
+
+void CeedOperator_private::view_parts(FILE *stream, CeedInt tabs, bool with_fields) const {
+  const hg::Lines line(stream, tabs);
   for (std::size_t i = 0; i < subs.size(); i++) {
     const CeedOperator_private &sub = *subs[i];
     line(1, "SubOperator %zu%s%s%s", i, sub.name.empty() ? "" : " - ", sub.name.c_str(), with_fields ? ":" : "");
     if (!with_fields) continue;
     if (sub.is_composite) {
-      sub.view(stream, with_fields);
+      sub.view_parts(stream, tabs + 1, with_fields);
     } else {
-      sub.view_fields(stream, num_view_tabs + 1);
+      sub.view_fields(stream, tabs + 1);
     }
   }
 }
 
 void CeedOperator_private::view_fields(FILE *stream, CeedInt tabs) const {
   const hg::Lines line(stream, tabs);
-  line(1, "%" CeedInt_FMT " elements with %" CeedInt_FMT " quadrature points each%s", num_elem, num_qpts,
-       is_at_points ? " max" : "");
+  line(1, "%" CeedInt_FMT " elements with %" CeedInt_FMT " %s each", std::max(num_elem, 0), std::max(num_qpts, 0),
+       is_at_points ? "max points" : "quadrature points");
   const std::size_t total = input_list.size() + output_list.size();
   line(1, "%zu field%s", total, hg::plural(total));
   const auto print = [&](const char *what, const char *title, const std::vector<CeedOperatorField> &fields) {
@@ -105,16 +112,16 @@ void CeedOperator_private::view_fields(FILE *stream, CeedInt tabs) const {
 }
 
 int CeedOperatorCreate(Ceed ceed, CeedQFunction qf, CeedQFunction, CeedQFunction, CeedOperator *op) {
-  return hg::guard(ceed, [&] { *op = create_single(ceed, qf, false).release(); });
+  return hg::guard(ceed, [&] { *op = create_single(ceed, qf, false, op).release(); });
 }
 
 int CeedOperatorCreateAtPoints(Ceed ceed, CeedQFunction qf, CeedQFunction, CeedQFunction, CeedOperator *op) {
-  return hg::guard(ceed, [&] { *op = create_single(ceed, qf, true).release(); });
+  return hg::guard(ceed, [&] { *op = create_single(ceed, qf, true, op).release(); });
 }
 
 int CeedOperatorCreateComposite(Ceed ceed, CeedOperator *op) {
   return hg::guard(ceed, [&] {
-    auto created = create(ceed);
+    auto created = create(ceed, op);
     created->is_composite = true;
     *op = created.release();
   });
@@ -153,14 +160,14 @@ int CeedOperatorCompositeAddSub(CeedOperator composite_op, CeedOperator sub_op) 
 int CeedOperatorCompositeGetNumSub(CeedOperator op, CeedInt *num_suboperators) {
   return hg::guard(hg::ceed_of(op), [&] {
     require_composite(hg::deref(op, "CeedOperator"));
-    *num_suboperators = static_cast<CeedInt>(op->subs.size());
+    hg::result(num_suboperators, "num_suboperators") = static_cast<CeedInt>(op->subs.size());
   });
 }
 
 int CeedOperatorCompositeGetSubList(CeedOperator op, CeedOperator **sub_operators) {
   return hg::guard(hg::ceed_of(op), [&] {
     require_composite(hg::deref(op, "CeedOperator"));
-    *sub_operators = op->sub_list.data();
+    hg::result(sub_operators, "sub_operators") = op->sub_list.data();
   });
 }
 
@@ -170,7 +177,7 @@ int CeedOperatorCompositeGetSubByName(CeedOperator op, const char *op_name, Ceed
     hg::require(op_name != nullptr, CEED_ERROR_MINOR, [&] {
       return hg::text("CeedOperator '%s': the name of the sub-operator is NULL; expected text", op->shown_name());
     });
-    *sub_op = nullptr;
+    hg::result(sub_op, "sub_op") = nullptr;
     for (const CeedOperator sub : op->sub_list) {
       if (sub->name == op_name) {
         *sub_op = sub;
@@ -190,24 +197,29 @@ int CeedOperatorCompositeSetSequential(CeedOperator op, bool is_sequential) {
 int CeedOperatorCompositeIsSequential(CeedOperator op, bool *is_sequential) {
   return hg::guard(hg::ceed_of(op), [&] {
     require_composite(hg::deref(op, "CeedOperator"));
-    *is_sequential = op->is_sequential;
+    hg::result(is_sequential, "is_sequential") = op->is_sequential;
   });
 }
 
 int CeedOperatorIsComposite(CeedOperator op, bool *is_composite) {
-  return hg::guard(hg::ceed_of(op), [&] { *is_composite = hg::deref(op, "CeedOperator").is_composite; });
+  return hg::guard(hg::ceed_of(op),
+                   [&] { hg::result(is_composite, "is_composite") = hg::deref(op, "CeedOperator").is_composite; });
 }
 
 int CeedOperatorIsAtPoints(CeedOperator op, bool *is_at_points) {
-  return hg::guard(hg::ceed_of(op), [&] { *is_at_points = hg::deref(op, "CeedOperator").is_at_points; });
+  return hg::guard(hg::ceed_of(op),
+                   [&] { hg::result(is_at_points, "is_at_points") = hg::deref(op, "CeedOperator").is_at_points; });
 }
 
 int CeedOperatorIsImmutable(CeedOperator op, bool *is_immutable) {
-  return hg::guard(hg::ceed_of(op), [&] { *is_immutable = hg::deref(op, "CeedOperator").is_immutable; });
+  return hg::guard(hg::ceed_of(op),
+                   [&] { hg::result(is_immutable, "is_immutable") = hg::deref(op, "CeedOperator").is_immutable; });
 }
 
 int CeedOperatorIsSetupDone(CeedOperator op, bool *is_setup_done) {
-  return hg::guard(hg::ceed_of(op), [&] { *is_setup_done = hg::deref(op, "CeedOperator").is_known_to_backend; });
+  return hg::guard(hg::ceed_of(op), [&] {
+    hg::result(is_setup_done, "is_setup_done") = hg::deref(op, "CeedOperator").is_known_to_backend;
+  });
 }
 
 int CeedOperatorSetName(CeedOperator op, const char *name) {
@@ -215,33 +227,38 @@ int CeedOperatorSetName(CeedOperator op, const char *name) {
 }
 
 int CeedOperatorGetName(CeedOperator op, const char **name) {
-  return hg::guard(hg::ceed_of(op), [&] { *name = hg::deref(op, "CeedOperator").full_name(); });
+  return hg::guard(hg::ceed_of(op), [&] { hg::result(name, "name") = hg::deref(op, "CeedOperator").full_name(); });
 }
 
 int CeedOperatorSetNumViewTabs(CeedOperator op, CeedInt num_tabs) {
-  return CeedObjectSetNumViewTabs(reinterpret_cast<CeedObject>(op), num_tabs);
+  return hg::set_view_tabs(op, num_tabs);
 }
 
 int CeedOperatorGetNumViewTabs(CeedOperator op, CeedInt *num_tabs) {
-  return CeedObjectGetNumViewTabs(reinterpret_cast<CeedObject>(op), num_tabs);
+  return hg::get_view_tabs(op, num_tabs);
 }
 
 int CeedOperatorView(CeedOperator op, FILE *stream) {
-  return hg::guard(hg::ceed_of(op), [&] { hg::deref(op, "CeedOperator").view(stream, true); });
+  return hg::view_object(op, stream);
 }
 
 int CeedOperatorViewTerse(CeedOperator op, FILE *stream) {
-  return hg::guard(hg::ceed_of(op), [&] { hg::deref(op, "CeedOperator").view(stream, false); });
+  return hg::guard(hg::ceed_of(op), [&] {
+    const auto &shown = hg::deref(op, "CeedOperator");
+    hg::require(stream != nullptr, CEED_ERROR_MINOR, "The stream is NULL; expected an open file");
+    shown.view(stream, false);
+  });
 }
 
 int CeedOperatorGetCeed(CeedOperator op, Ceed *ceed) {
-  return CeedObjectGetCeed(reinterpret_cast<CeedObject>(op), ceed);
+  return hg::get_ceed(op, ceed);
 }
 
 Ceed CeedOperatorReturnCeed(CeedOperator op) { return hg::ceed_of(op); }
 
 int CeedOperatorGetData(CeedOperator op, void *data) {
-  return hg::guard(hg::ceed_of(op), [&] { *static_cast<void **>(data) = hg::deref(op, "CeedOperator").data; });
+  return hg::guard(hg::ceed_of(op),
+                   [&] { hg::result(static_cast<void **>(data), "data") = hg::deref(op, "CeedOperator").data; });
 }
 
 int CeedOperatorSetData(CeedOperator op, void *data) {
@@ -251,20 +268,21 @@ int CeedOperatorSetData(CeedOperator op, void *data) {
 int CeedOperatorGetNumElements(CeedOperator op, CeedInt *num_elem) {
   return hg::guard(hg::ceed_of(op), [&] {
     require_single(hg::deref(op, "CeedOperator"));
-    *num_elem = std::max(op->num_elem, 0);
+    hg::result(num_elem, "num_elem") = std::max(op->num_elem, 0);
   });
 }
 
 int CeedOperatorGetNumQuadraturePoints(CeedOperator op, CeedInt *num_qpts) {
   return hg::guard(hg::ceed_of(op), [&] {
     require_single(hg::deref(op, "CeedOperator"));
-    *num_qpts = std::max(op->num_qpts, 0);
+    hg::result(num_qpts, "num_qpts") = std::max(op->num_qpts, 0);
   });
 }
 
 int CeedOperatorGetQFunction(CeedOperator op, CeedQFunction *qf) {
   return hg::guard(hg::ceed_of(op), [&] {
     require_single(hg::deref(op, "CeedOperator"));
-    *qf = hg::Ref<CeedQFunction_private>(op->qf).release();
+    hg::result(qf, "qf") = op->qf.get();
+    hg::reference(op->qf.get());
   });
 }

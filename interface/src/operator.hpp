@@ -2,6 +2,7 @@
 /// Restrictions, bases and a QFunction, composed; or a sum of such operators.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <string>
@@ -27,8 +28,9 @@ struct CeedOperator_private final : CeedObject_private {
   ~CeedOperator_private() override;
   void view(FILE *stream) const override { view(stream, true); }
   void view(FILE *stream, bool with_fields) const;
-  /// What stands below the title of a single operator.
+  /// What stands below the title: the fields of a single operator, the parts of a composite one.
   void view_fields(FILE *stream, CeedInt tabs) const;
+  void view_parts(FILE *stream, CeedInt tabs, bool with_fields) const;
   Ceed owner() const override { return ceed.get(); }
 
   hg::Ref<Ceed_private> ceed;
@@ -58,6 +60,10 @@ struct CeedOperator_private final : CeedObject_private {
   hg::Ref<CeedVector_private> assembled;
   hg::Ref<CeedElemRestriction_private> assembled_rstr;
 
+  /// Whether there is no single operator in it: it is zero, for vectors of any length.
+  bool is_empty() const {
+    return is_composite && std::all_of(subs.begin(), subs.end(), [](const auto &sub) { return sub->is_empty(); });
+  }
   /// Its name; without one, that of its QFunction; "" for a composite without one.
   const char *full_name() const { return (name.empty() && qf ? qf->name() : name).c_str(); }
   /// For messages.

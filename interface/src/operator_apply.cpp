@@ -42,7 +42,7 @@ std::vector<CeedVector> passive_outputs(CeedOperator_private &op) {
 
 void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passive passive) {
   hg::check_ready(hg::deref(op, "CeedOperator"));
-  if (op->is_composite && op->subs.empty()) {
+  if (op->is_empty()) {
     if (!is_added && is_given(out)) hg::check(CeedVectorSetValue(out, 0.0));
     return;
   }
@@ -124,6 +124,6 @@ int CeedOperatorGetFlopsEstimate(CeedOperator op, CeedSize *flops) {
       hg::check(CeedQFunctionGetFlopsEstimate(program.qf, &qf_flops));
       total += qf_flops * all_points;
     });
-    *flops = total;
+    hg::result(flops, "flops") = total;
   });
 }

@@ -1,4 +1,5 @@
 /// Context fields of an operator, through composites.
+#include <algorithm>
 #include <cstdint>
 
 #include "operator.hpp"
@@ -8,53 +9,130 @@ namespace {
 using hg::require;
 using hg::text;
 
-/// The label in the operator's own context, or NULL.
-CeedContextFieldLabel own_label(const CeedOperator_private &op, const char *name) {
-  CeedContextFieldLabel label = nullptr;
-  if (op.qf->context) hg::check(CeedQFunctionContextGetFieldLabel(op.qf->context.get(), name, &label));
-  return label;
+/// The label of the field, or NULL; a composite operator makes one with its first use.
+CeedContextFieldLabel find_label(CeedOperator_private &op, const std::string &name);
+
+/// The labels of the field in the sub-operators as they are now, NULL where one lacks it. They agree in type and number
+/// of values.
+std::vector<CeedContextFieldLabel> labels_of_parts(CeedOperator_private &op, const std::string &name) {
+  std::vector<CeedContextFieldLabel> labels;
+  CeedContextFieldLabel first = nullptr;
+  for (const auto &sub : op.subs) {
+    const CeedContextFieldLabel label = find_label(*sub, name);
+    labels.push_back(label);
+    if (label == nullptr) continue;
+    if (first == nullptr) first = label;
+    require(label->type == first->type && label->num_values == first->num_values, CEED_ERROR_INCOMPATIBLE, [&] {
+      return text(
+          "Composite CeedOperator '%s': sub-operators register the context field '%s' with different types "
+          "or numbers of values",
+          op.shown_name(), name.c_str());
+    });
+  }
+  return labels;
 }
 
-/// Calls f(context, label) for the operator, or for each sub-operator that has the field.
+CeedContextFieldLabel find_label(CeedOperator_private &op, const std::string &name) {
+  if (!op.is_composite) {
+    CeedContextFieldLabel label = nullptr;
+    if (op.qf->context) hg::check(CeedQFunctionContextGetFieldLabel(op.qf->context.get(), name.c_str(), &label));
+    return label;
+  }
+  const auto parts = labels_of_parts(op, name);
+  const auto any = std::find_if(parts.begin(), parts.end(), [](auto label) { return label != nullptr; });
+  if (any == parts.end()) return nullptr;
+  const CeedContextFieldLabel_private &first = **any;
+  CeedContextFieldLabel_private shared;
+  shared.name = first.name;
+  shared.description = first.description;
+  shared.type = first.type;
+  shared.num_values = first.num_values;
+  shared.size = first.size;
+  shared.offset = SIZE_MAX;  // it has one in each sub-operator, none of its own
+  // A label that was handed out stays where it is.
+  const auto known = std::find_if(op.labels.begin(), op.labels.end(), [&](auto &label) { return label.name == name; });
+  if (known == op.labels.end()) return &op.labels.emplace_back(std::move(shared));
+  *known = std::move(shared);
+  return &*known;
+}
+
+/// Calls f(context, label) for the operator, or for each sub-operator that has the field now.
 template <typename F>
-void for_each_context(CeedOperator op, CeedContextFieldLabel label, F &&f) {
-  hg::deref(op, "CeedOperator");
-  require(label != nullptr, CEED_ERROR_UNSUPPORTED,
-          [&] { return text("CeedOperator '%s': the context field label is NULL", op->shown_name()); });
-  if (!op->is_composite) {
-    require(static_cast<bool>(op->qf->context), CEED_ERROR_UNSUPPORTED,
-            [&] { return text("CeedOperator '%s': its QFunction has no context", op->shown_name()); });
-    f(op->qf->context.get(), label);
+void for_each_context(CeedOperator_private &op, CeedContextFieldLabel label, F &&f) {
+  require(label != nullptr, CEED_ERROR_UNSUPPORTED, [&] {
+    return text(
+        "CeedOperator '%s': the context field label is NULL; expected one from "
+        "CeedOperatorGetContextFieldLabel()",
+        op.shown_name());
+  });
+  if (!op.is_composite) {
+    require(static_cast<bool>(op.qf->context), CEED_ERROR_UNSUPPORTED,
+            [&] { return text("CeedOperator '%s': its QFunction has no context", op.shown_name()); });
+    f(op.qf->context.get(), label);
     return;
   }
-  require(label->sub_labels.size() == op->subs.size(), CEED_ERROR_UNSUPPORTED, [&] {
-    return text("CeedOperator '%s': label '%s' is not of this composite operator", op->shown_name(),
+  const bool is_own = std::any_of(op.labels.begin(), op.labels.end(), [&](auto &own) { return &own == label; });
+  require(is_own, CEED_ERROR_UNSUPPORTED, [&] {
+    return text("CeedOperator '%s': label '%s' is not of this composite operator", op.shown_name(),
                 label->name.c_str());
   });
-  for (std::size_t i = 0; i < op->subs.size(); i++) {
-    if (label->sub_labels[i] != nullptr) for_each_context(op->subs[i].get(), label->sub_labels[i], f);
+  const auto parts = labels_of_parts(op, label->name);
+  for (std::size_t i = 0; i < parts.size(); i++) {
+    if (parts[i] != nullptr) for_each_context(*op.subs[i], parts[i], f);
   }
 }
 
 template <typename T, typename Set>
-int set_values(CeedOperator op, CeedContextFieldLabel label, T *values, Set set) {
-  return hg::guard(hg::ceed_of(op), [&] {
-    for_each_context(op, label, [&](CeedQFunctionContext context, CeedContextFieldLabel own) {
-      hg::check(set(context, own, values));
-    });
-    hg::for_each_single(*op, [](CeedOperator_private &single) { single.assembly_needs_update = true; });
-  });
+int set_values(CeedOperator op, CeedContextFieldLabel label, T *values, Set set,
+               const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(op),
+      [&] {
+        hg::deref(op, "CeedOperator");
+        hg::require_argument(values, "values (as many as the field has)");
+        for_each_context(*op, label, [&](CeedQFunctionContext context, CeedContextFieldLabel own) {
+          hg::check(set(context, own, values));
+        });
+        hg::for_each_single(*op, [](CeedOperator_private &single) { single.assembly_needs_update = true; });
+      },
+      function);
 }
 
 /// Calls f for the first context that has the field: its values stand for all.
 template <typename F>
-int with_first_context(CeedOperator op, CeedContextFieldLabel label, F &&f) {
-  return hg::guard(hg::ceed_of(op), [&] {
-    bool is_first = true;
-    for_each_context(op, label, [&](CeedQFunctionContext context, CeedContextFieldLabel own) {
-      if (std::exchange(is_first, false)) hg::check(f(context, own));
-    });
+void with_first_context(CeedOperator op, CeedContextFieldLabel label, F &&f) {
+  bool is_first = true;
+  for_each_context(hg::deref(op, "CeedOperator"), label, [&](CeedQFunctionContext context, CeedContextFieldLabel own) {
+    if (std::exchange(is_first, false)) hg::check(f(context, own));
   });
+}
+
+template <typename T, typename Get>
+int get_values(CeedOperator op, CeedContextFieldLabel label, std::size_t *num_values, const T **values, Get get,
+               const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(op),
+      [&] {
+        hg::deref(op, "CeedOperator");
+        hg::require_argument(values, "values (where the address of the values goes)");
+        with_first_context(op, label, [&](CeedQFunctionContext context, CeedContextFieldLabel own) {
+          return get(context, own, num_values, values);
+        });
+      },
+      function);
+}
+
+template <typename T, typename Restore>
+int restore_values(CeedOperator op, CeedContextFieldLabel label, const T **values, Restore restore,
+                   const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      hg::ceed_of(op),
+      [&] {
+        with_first_context(op, label, [&](CeedQFunctionContext context, CeedContextFieldLabel own) {
+          return restore(context, own, values);
+        });
+      },
+      function);
 }
 
 }  // namespace
@@ -64,7 +142,9 @@ int CeedOperatorGetContext(CeedOperator op, CeedQFunctionContext *ctx) {
     require(!hg::deref(op, "CeedOperator").is_composite, CEED_ERROR_INCOMPATIBLE, [&] {
       return text("CeedOperator '%s' is composite; ask its sub-operators for their contexts", op->shown_name());
     });
-    *ctx = hg::Ref(op->qf->context).release();
+    const CeedQFunctionContext context = op->qf->context.get();
+    hg::result(ctx, "ctx") = context;
+    hg::reference(context);
   });
 }
 
@@ -74,40 +154,7 @@ int CeedOperatorGetContextFieldLabel(CeedOperator op, const char *field_name, Ce
     require(field_name != nullptr, CEED_ERROR_MINOR, [&] {
       return text("CeedOperator '%s': the name of the context field is NULL; expected text", op->shown_name());
     });
-    if (!op->is_composite) {
-      *field_label = own_label(*op, field_name);
-      return;
-    }
-    for (auto &label : op->labels) {
-      if (label.name == field_name && label.sub_labels.size() == op->subs.size()) {
-        *field_label = &label;
-        return;
-      }
-    }
-    CeedContextFieldLabel_private shared;
-    CeedContextFieldLabel first = nullptr;
-    for (const auto &sub : op->subs) {
-      CeedContextFieldLabel label = nullptr;
-      hg::check(CeedOperatorGetContextFieldLabel(sub.get(), field_name, &label));
-      shared.sub_labels.push_back(label);
-      if (label == nullptr) continue;
-      if (first == nullptr) first = label;
-      require(label->type == first->type && label->num_values == first->num_values, CEED_ERROR_INCOMPATIBLE, [&] {
-        return text("Composite CeedOperator '%s': sub-operators register the context field '%s' with different types "
-                    "or numbers of values",
-                    op->shown_name(), field_name);
-      });
-    }
-    *field_label = nullptr;
-    if (first == nullptr) return;
-    shared.name = first->name;
-    shared.description = first->description;
-    shared.type = first->type;
-    shared.num_values = first->num_values;
-    shared.size = first->size;
-    shared.offset = SIZE_MAX;  // it has one in each sub-operator, none of its own
-    op->labels.push_back(std::move(shared));
-    *field_label = &op->labels.back();
+    hg::result(field_label, "field_label") = find_label(*op, field_name);
   });
 }
 
@@ -117,15 +164,11 @@ int CeedOperatorSetContextDouble(CeedOperator op, CeedContextFieldLabel field_la
 
 int CeedOperatorGetContextDoubleRead(CeedOperator op, CeedContextFieldLabel field_label, size_t *num_values,
                                      const double **values) {
-  return with_first_context(op, field_label, [&](CeedQFunctionContext context, CeedContextFieldLabel label) {
-    return CeedQFunctionContextGetDoubleRead(context, label, num_values, values);
-  });
+  return get_values(op, field_label, num_values, values, CeedQFunctionContextGetDoubleRead);
 }
 
 int CeedOperatorRestoreContextDoubleRead(CeedOperator op, CeedContextFieldLabel field_label, const double **values) {
-  return with_first_context(op, field_label, [&](CeedQFunctionContext context, CeedContextFieldLabel label) {
-    return CeedQFunctionContextRestoreDoubleRead(context, label, values);
-  });
+  return restore_values(op, field_label, values, CeedQFunctionContextRestoreDoubleRead);
 }
 
 int CeedOperatorSetContextInt32(CeedOperator op, CeedContextFieldLabel field_label, int32_t *values) {
@@ -134,15 +177,11 @@ int CeedOperatorSetContextInt32(CeedOperator op, CeedContextFieldLabel field_lab
 
 int CeedOperatorGetContextInt32Read(CeedOperator op, CeedContextFieldLabel field_label, size_t *num_values,
                                     const int32_t **values) {
-  return with_first_context(op, field_label, [&](CeedQFunctionContext context, CeedContextFieldLabel label) {
-    return CeedQFunctionContextGetInt32Read(context, label, num_values, values);
-  });
+  return get_values(op, field_label, num_values, values, CeedQFunctionContextGetInt32Read);
 }
 
 int CeedOperatorRestoreContextInt32Read(CeedOperator op, CeedContextFieldLabel field_label, const int32_t **values) {
-  return with_first_context(op, field_label, [&](CeedQFunctionContext context, CeedContextFieldLabel label) {
-    return CeedQFunctionContextRestoreInt32Read(context, label, values);
-  });
+  return restore_values(op, field_label, values, CeedQFunctionContextRestoreInt32Read);
 }
 
 int CeedOperatorSetContextBoolean(CeedOperator op, CeedContextFieldLabel field_label, bool *values) {
@@ -151,13 +190,9 @@ int CeedOperatorSetContextBoolean(CeedOperator op, CeedContextFieldLabel field_l
 
 int CeedOperatorGetContextBooleanRead(CeedOperator op, CeedContextFieldLabel field_label, size_t *num_values,
                                       const bool **values) {
-  return with_first_context(op, field_label, [&](CeedQFunctionContext context, CeedContextFieldLabel label) {
-    return CeedQFunctionContextGetBooleanRead(context, label, num_values, values);
-  });
+  return get_values(op, field_label, num_values, values, CeedQFunctionContextGetBooleanRead);
 }
 
 int CeedOperatorRestoreContextBooleanRead(CeedOperator op, CeedContextFieldLabel field_label, const bool **values) {
-  return with_first_context(op, field_label, [&](CeedQFunctionContext context, CeedContextFieldLabel label) {
-    return CeedQFunctionContextRestoreBooleanRead(context, label, values);
-  });
+  return restore_values(op, field_label, values, CeedQFunctionContextRestoreBooleanRead);
 }

@@ -158,6 +158,26 @@ void hand_out_active(CeedOperator op, hg::Ref<T> CeedOperatorField_private::*mem
   if (output != nullptr) *output = of_outputs.release();
 }
 
+const CeedOperatorField_private &deref(CeedOperatorField op_field, hg::Where where = hg::Where::current()) {
+  require(op_field != nullptr, CEED_ERROR_INCOMPLETE, "CeedOperatorField is NULL; expected a field of an operator",
+          where);
+  return *op_field;
+}
+
+/// Body of the getters of a field's objects; `function` is the getter.
+template <typename T>
+int get(CeedOperatorField op_field, hg::Ref<T> CeedOperatorField_private::*member, T **handle, const char *name,
+        const char *function = __builtin_FUNCTION()) {
+  return hg::guard(
+      nullptr,
+      [&] {
+        T *object = (deref(op_field).*member).get();
+        hg::result(handle, name) = object;
+        hg::reference(object);
+      },
+      function);
+}
+
 }  // namespace
 
 namespace hg {
@@ -167,6 +187,7 @@ void check_ready(CeedOperator_private &op) {
     CeedSize in = -1, out = -1;
     for (const auto &sub : op.subs) {
       check_ready(*sub);
+      if (sub->is_empty()) continue;
       CeedSize sub_in = -1, sub_out = -1;
       check(CeedOperatorGetActiveVectorLengths(sub.get(), &sub_in, &sub_out));
       const auto agree = [&](CeedSize &known, CeedSize value, const char *what) {
@@ -229,7 +250,8 @@ int CeedOperatorSetField(CeedOperator op, const char *field_name, CeedElemRestri
                          CeedVector vec) {
   return hg::guard(hg::ceed_of(op), [&] {
     hg::deref(op, "CeedOperator");
-    require(field_name != nullptr, CEED_ERROR_MINOR, "Name of the operator field is NULL");
+    require(field_name != nullptr, CEED_ERROR_MINOR,
+            "Name of the operator field is NULL; expected that of a field of the QFunction");
     require(!op->is_composite, CEED_ERROR_INCOMPATIBLE, [&] {
       return text("CeedOperator '%s' is composite and has no field '%s'; set it in a sub-operator", op->shown_name(),
                   field_name);
@@ -356,7 +378,7 @@ int CeedOperatorGetFieldByName(CeedOperator op, const char *field_name, CeedOper
     require(field_name != nullptr, CEED_ERROR_MINOR, [&] {
       return text("CeedOperator '%s': the name of the field is NULL; expected text", op->shown_name());
     });
-    *op_field = nullptr;
+    hg::result(op_field, "op_field") = nullptr;
     for (const auto *list : {&op->input_list, &op->output_list}) {
       for (const CeedOperatorField field : *list) {
         if (field->qf_field->name == field_name) *op_field = field;
@@ -373,7 +395,7 @@ int CeedOperatorGetActiveVectorLengths(CeedOperator op, CeedSize *input_size, Ce
   return hg::guard(hg::ceed_of(op), [&] {
     CeedSize in = -1, out = -1;
     // A composite without sub-operators, as a process without elements makes, is zero for vectors of any length.
-    if (hg::deref(op, "CeedOperator").is_composite && op->subs.empty()) in = out = 0;
+    if (hg::deref(op, "CeedOperator").is_empty()) in = out = 0;
     hg::for_each_single(*op, [&](CeedOperator_private &single) {
       const auto length = [&](const std::vector<CeedOperatorField> &fields, CeedSize &known, const char *what) {
         for (const CeedOperatorField field : fields) {
@@ -396,14 +418,16 @@ int CeedOperatorGetActiveVectorLengths(CeedOperator op, CeedSize *input_size, Ce
 
 int CeedOperatorGetNumArgs(CeedOperator op, CeedInt *num_args) {
   return hg::guard(hg::ceed_of(op), [&] {
-    *num_args = static_cast<CeedInt>(hg::deref(op, "CeedOperator").inputs.size() + op->outputs.size());
+    hg::result(num_args, "num_args") =
+        static_cast<CeedInt>(hg::deref(op, "CeedOperator").inputs.size() + op->outputs.size());
   });
 }
 
 int CeedOperatorHasTensorBases(CeedOperator op, bool *has_tensor_bases) {
   return hg::guard(hg::ceed_of(op), [&] {
-    *has_tensor_bases = true;
-    for (const auto *list : {&hg::deref(op, "CeedOperator").input_list, &op->output_list}) {
+    hg::deref(op, "CeedOperator");
+    hg::result(has_tensor_bases, "has_tensor_bases") = true;
+    for (const auto *list : {&op->input_list, &op->output_list}) {
       for (const CeedOperatorField field : *list) {
         if (field->is_set() && field->basis.get() != CEED_BASIS_NONE && !field->basis->is_tensor) {
           *has_tensor_bases = false;
@@ -420,7 +444,11 @@ int CeedOperatorGetActiveBases(CeedOperator op, CeedBasis *active_input_basis, C
 }
 
 int CeedOperatorGetActiveBasis(CeedOperator op, CeedBasis *active_basis) {
-  return CeedOperatorGetActiveBases(op, active_basis, nullptr);
+  return hg::guard(hg::ceed_of(op), [&] {
+    CeedBasis basis = single_active(op, true, &CeedOperatorField_private::basis, "basis");
+    hg::result(active_basis, "active_basis") = basis;
+    hg::reference(basis);
+  });
 }
 
 int CeedOperatorGetActiveElemRestrictions(CeedOperator op, CeedElemRestriction *active_input_rstr,
@@ -431,32 +459,36 @@ int CeedOperatorGetActiveElemRestrictions(CeedOperator op, CeedElemRestriction *
 }
 
 int CeedOperatorGetActiveElemRestriction(CeedOperator op, CeedElemRestriction *active_rstr) {
-  return CeedOperatorGetActiveElemRestrictions(op, active_rstr, nullptr);
+  return hg::guard(hg::ceed_of(op), [&] {
+    CeedElemRestriction rstr = single_active(op, true, &CeedOperatorField_private::rstr, "restriction");
+    hg::result(active_rstr, "active_rstr") = rstr;
+    hg::reference(rstr);
+  });
 }
 
 int CeedOperatorFieldGetName(CeedOperatorField op_field, const char **field_name) {
-  return CeedOperatorFieldGetData(op_field, field_name, nullptr, nullptr, nullptr);
+  return hg::guard(nullptr, [&] { hg::result(field_name, "field_name") = deref(op_field).qf_field->name.c_str(); });
 }
 
 int CeedOperatorFieldGetElemRestriction(CeedOperatorField op_field, CeedElemRestriction *rstr) {
-  return CeedOperatorFieldGetData(op_field, nullptr, rstr, nullptr, nullptr);
+  return get(op_field, &CeedOperatorField_private::rstr, rstr, "rstr");
 }
 
 int CeedOperatorFieldGetBasis(CeedOperatorField op_field, CeedBasis *basis) {
-  return CeedOperatorFieldGetData(op_field, nullptr, nullptr, basis, nullptr);
+  return get(op_field, &CeedOperatorField_private::basis, basis, "basis");
 }
 
 int CeedOperatorFieldGetVector(CeedOperatorField op_field, CeedVector *vec) {
-  return CeedOperatorFieldGetData(op_field, nullptr, nullptr, nullptr, vec);
+  return get(op_field, &CeedOperatorField_private::vec, vec, "vec");
 }
 
 int CeedOperatorFieldGetData(CeedOperatorField op_field, const char **field_name, CeedElemRestriction *rstr,
                              CeedBasis *basis, CeedVector *vec) {
   return hg::guard(nullptr, [&] {
-    require(op_field != nullptr, CEED_ERROR_INCOMPLETE, "CeedOperatorField is NULL; expected a field of an operator");
-    if (field_name != nullptr) *field_name = op_field->qf_field->name.c_str();
-    if (rstr != nullptr) *rstr = hg::Ref(op_field->rstr).release();
-    if (basis != nullptr) *basis = hg::Ref(op_field->basis).release();
-    if (vec != nullptr) *vec = hg::Ref(op_field->vec).release();
+    const auto &field = deref(op_field);
+    if (field_name != nullptr) *field_name = field.qf_field->name.c_str();
+    if (rstr != nullptr) *rstr = hg::Ref(field.rstr).release();
+    if (basis != nullptr) *basis = hg::Ref(field.basis).release();
+    if (vec != nullptr) *vec = hg::Ref(field.vec).release();
   });
 }

@@ -26,7 +26,9 @@ class Lines {
   int tabs_;
 };
 
-/// "" for one, "s" for any other number.
-inline const char *plural(std::size_t count) { return count == 1 ? "" : "s"; }
+/// "s" for two or more; "" for none too, as those who read the output expect.
+inline const char *plural(std::size_t count) {
+  return count > 1 ? "s" : "";
+}
 
 }  // namespace hg

@@ -188,6 +188,58 @@ TEST_P(CompositeTest, NoSubOperatorsIsZero) {
   std::free(cols);
 }
 
+/// Nor has one that is a part of another: the others decide what vectors there are.
+TEST_P(CompositeTest, PartsWithoutSubOperatorsCountForNothing) {
+  const Box mesh(1, 3, 3);
+  const AffineOperator part(ceed, mesh, 4, 1, {1, 0, 0, false});
+  const Values u = Random(8).reals(mesh.num_nodes), want = apply_to(ceed, part.op, u);
+  for (const bool is_first : {true, false}) {
+    Operator nothing, of_nothing, all;
+    ok(CeedOperatorCreateComposite(ceed, nothing.out()));
+    ok(CeedOperatorCreateComposite(ceed, of_nothing.out()));
+    ok(CeedOperatorCreateComposite(ceed, all.out()));
+    ok(CeedOperatorCompositeAddSub(of_nothing, nothing));
+    if (!is_first) ok(CeedOperatorCompositeAddSub(all, part.op));
+    ok(CeedOperatorCompositeAddSub(all, nothing));
+    ok(CeedOperatorCompositeAddSub(all, of_nothing));
+    if (is_first) ok(CeedOperatorCompositeAddSub(all, part.op));
+    ok(CeedOperatorCheckReady(all));
+    CeedSize in = 0, out = 0;
+    ok(CeedOperatorGetActiveVectorLengths(all, &in, &out));
+    EXPECT_EQ(in, mesh.num_nodes);
+    EXPECT_EQ(out, mesh.num_nodes);
+    expect_close(apply_to(ceed, all, u), want, tolerance(mesh.num_nodes), "with parts of nothing");
+    // Alone it is zero.
+    const Vector v = make_vector(ceed, 3, 5.0), w = make_vector(ceed, 3, 1.0);
+    ok(CeedOperatorApply(of_nothing, w, v, CEED_REQUEST_IMMEDIATE));
+    EXPECT_EQ(values_of(v), Values(3, 0.0));
+    ok(CeedVectorSetValue(v, 5.0));
+    ok(CeedOperatorLinearAssembleDiagonal(of_nothing, v, CEED_REQUEST_IMMEDIATE));
+    EXPECT_EQ(values_of(v), Values(3, 0.0));
+  }
+}
+
+TEST_P(CompositeTest, RefusesToContainItself) {
+  const Box mesh(1, 2, 2);
+  const AffineOperator part(ceed, mesh, 3, 1, {1, 0, 0, false});
+  Operator inner, middle, outer;
+  for (Operator *op : {&inner, &middle, &outer}) ok(CeedOperatorCreateComposite(ceed, op->out()));
+  ok(CeedOperatorSetName(inner, "inner"));
+  ok(CeedOperatorSetName(outer, "outer"));
+  ok(CeedOperatorCompositeAddSub(outer, middle));
+  ok(CeedOperatorCompositeAddSub(middle, inner));
+  expect_error(CeedOperatorCompositeAddSub(inner, inner), CEED_ERROR_MINOR, {"inner"});
+  expect_error(CeedOperatorCompositeAddSub(inner, middle), CEED_ERROR_MINOR, {"inner"});
+  expect_error(CeedOperatorCompositeAddSub(inner, outer), CEED_ERROR_MINOR, {"inner"});
+  // The same part twice is another matter.
+  ok(CeedOperatorCompositeAddSub(inner, part.op));
+  ok(CeedOperatorCompositeAddSub(outer, inner));
+  const Values u = Random(9).reals(mesh.num_nodes);
+  Values want = apply_to(ceed, part.op, u);
+  for (CeedScalar &value : want) value *= 2;
+  expect_close(apply_to(ceed, outer, u), want, tolerance(mesh.num_nodes), "twice the part");
+}
+
 /// Whether entry i of the active input is read by a case.
 std::vector<bool> used_entries(const Case &c) {
   std::vector<bool> is_used(static_cast<std::size_t>(c.input_size()));

@@ -144,6 +144,69 @@ TEST_P(OperatorContextTest, ReachesAllSubOperators) {
   EXPECT_EQ(label_of(all, "nothing of the kind"), nullptr);
 }
 
+/// A label of a composite is that of the sub-operators which have the field when it is used.
+TEST_P(OperatorContextTest, ReachesFieldsThatWereRegisteredLater) {
+  const Box mesh(1, 2, 2);
+  const AffineOperator first(ceed, mesh, 3, 1, {1, 0, 0, false}), second(ceed, mesh, 3, 1, {10, 0, 0, false}),
+      third(ceed, mesh, 3, 1, {100, 0, 0, false});
+  Operator inner, all;
+  ok(CeedOperatorCreateComposite(ceed, inner.out()));
+  ok(CeedOperatorCreateComposite(ceed, all.out()));
+  ok(CeedOperatorCompositeAddSub(inner, second.op));
+  ok(CeedOperatorCompositeAddSub(all, first.op));
+  ok(CeedOperatorCompositeAddSub(all, inner));
+  EXPECT_EQ(label_of(all, "late"), nullptr);
+  const auto register_late = [](const AffineOperator &op) {
+    ok(CeedQFunctionContextRegisterDouble(op.context, "late", offsetof(AffineContext, shift), 1, "registered late"));
+  };
+  const auto shift_of = [](const AffineOperator &op) { return read_double(op.op, label_of(op.op, "shift")); };
+  register_late(first);
+  const CeedContextFieldLabel late = label_of(all, "late");
+  ASSERT_NE(late, nullptr);
+  double value = 3;
+  ok(CeedOperatorSetContextDouble(all, late, &value));
+  EXPECT_EQ(shift_of(first), 3);
+  EXPECT_EQ(shift_of(second), 0);
+
+  register_late(second);
+  ok(CeedOperatorCompositeAddSub(inner, third.op));
+  register_late(third);
+  value = 4;
+  ok(CeedOperatorSetContextDouble(all, late, &value));
+  EXPECT_EQ(shift_of(first), 4);
+  EXPECT_EQ(shift_of(second), 4);
+  EXPECT_EQ(shift_of(third), 4);
+  EXPECT_EQ(label_of(all, "late"), late);
+  EXPECT_EQ(read_double(all, late), 4);
+}
+
+/// A label of another operator, and a field that the parts do not agree on.
+TEST_P(OperatorContextTest, RefusesLabelsOfOthers) {
+  const Box mesh(1, 2, 2);
+  const AffineOperator first(ceed, mesh, 3, 1, start), second(ceed, mesh, 3, 1, start);
+  Operator all, other;
+  for (Operator *op : {&all, &other}) {
+    ok(CeedOperatorCreateComposite(ceed, op->out()));
+    ok(CeedOperatorCompositeAddSub(*op, first.op));
+  }
+  double value = 3;
+  expect_error(CeedOperatorSetContextDouble(all, label_of(other, "factor"), &value), CEED_ERROR_UNSUPPORTED,
+               {"factor"});
+  EXPECT_EQ(last_report().function, "CeedOperatorSetContextDouble");
+  expect_error(CeedOperatorSetContextDouble(all, label_of(first.op, "factor"), &value), CEED_ERROR_UNSUPPORTED,
+               {"factor"});
+  std::size_t count = 0;
+  const double *values = nullptr;
+  expect_error(CeedOperatorGetContextDoubleRead(all, nullptr, &count, &values), CEED_ERROR_UNSUPPORTED, {"NULL"});
+  EXPECT_EQ(last_report().function, "CeedOperatorGetContextDoubleRead");
+
+  ok(CeedQFunctionContextRegisterDouble(first.context, "odd", offsetof(AffineContext, shift), 1, ""));
+  const CeedContextFieldLabel odd = label_of(all, "odd");
+  ok(CeedOperatorCompositeAddSub(all, second.op));
+  ok(CeedQFunctionContextRegisterInt32(second.context, "odd", offsetof(AffineContext, multiple), 1, ""));
+  expect_error(CeedOperatorSetContextDouble(all, odd, &value), CEED_ERROR_INCOMPATIBLE, {"odd", "different types"});
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, OperatorContextTest, testing::ValuesIn(usable_backends()), backend_name);
 
 }  // namespace

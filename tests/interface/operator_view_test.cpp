@@ -77,4 +77,61 @@ TEST_F(OperatorViewTest, CompositeShowsTheNamesItsPartsWereGiven) {
   EXPECT_EQ(found, op.get());
 }
 
+/// A part that is itself composite stands below its title, further in.
+TEST_F(OperatorViewTest, CompositeShowsThePartsOfItsParts) {
+  Operator all, inner;
+  ok(CeedOperatorCreateComposite(ceed, all.out()));
+  ok(CeedOperatorCreateComposite(ceed, inner.out()));
+  ok(CeedOperatorSetName(inner, "inner"));
+  ok(CeedOperatorCompositeAddSub(inner, op));
+  ok(CeedOperatorCompositeAddSub(all, op));
+  ok(CeedOperatorCompositeAddSub(all, inner));
+  const std::string want = "Composite CeedOperator\n  SubOperator 0:\n" + fields("  ") +
+                           "  SubOperator 1 - inner:\n    SubOperator 0:\n" + fields("    ");
+  EXPECT_EQ(view(all), want);
+  ok(CeedOperatorSetNumViewTabs(all, 1));
+  EXPECT_EQ(view(all), "  Composite CeedOperator\n    SubOperator 0:\n" + fields("    ") +
+                           "    SubOperator 1 - inner:\n      SubOperator 0:\n" + fields("      "));
+  EXPECT_EQ(terse(all), "  Composite CeedOperator\n    SubOperator 0\n    SubOperator 1 - inner\n");
+}
+
+TEST_F(OperatorViewTest, OperatorsAtPointsSayThatTheyAre) {
+  const CeedInt offsets[] = {3, 4, 6, 0, 1, 2};
+  Restriction points;
+  ok(CeedElemRestrictionCreateAtPoints(ceed, 2, 3, 1, 3, CEED_MEM_HOST, CEED_COPY_VALUES, offsets, points.out()));
+  const Vector coordinates = make_vector(ceed, 3, 0.1);
+  Operator at_points, all;
+  ok(CeedOperatorCreateAtPoints(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, at_points.out()));
+  ok(CeedOperatorSetField(at_points, "u", points, CEED_BASIS_NONE, CEED_VECTOR_ACTIVE));
+  ok(CeedOperatorSetField(at_points, "v", points, CEED_BASIS_NONE, CEED_VECTOR_ACTIVE));
+  ok(CeedOperatorAtPointsSetPoints(at_points, points, coordinates));
+  const auto fields_at_points = [](const std::string &indent) {
+    return indent + "  2 elements with 2 max points each\n" + indent + "  2 fields\n" + field("input", "u", indent) +
+           field("output", "v", indent);
+  };
+  EXPECT_EQ(view(at_points), "CeedOperator AtPoints - Scale\n" + fields_at_points(""));
+  ok(CeedOperatorSetName(at_points, "moving"));
+  EXPECT_EQ(view(at_points), "CeedOperator AtPoints - moving\n" + fields_at_points(""));
+  EXPECT_EQ(terse(at_points), "CeedOperator AtPoints - moving\n");
+  ok(CeedOperatorCreateComposite(ceed, all.out()));
+  ok(CeedOperatorCompositeAddSub(all, at_points));
+  EXPECT_EQ(view(all), "Composite CeedOperator\n  SubOperator 0 - moving:\n" + fields_at_points("  "));
+}
+
+/// What is not known yet counts as none; "none" has no plural.
+TEST_F(OperatorViewTest, ShowsWhatIsNotSet) {
+  QFunction source;
+  ok(CeedQFunctionCreateInteriorByName(ceed, "Scale", source.out()));
+  ok(CeedQFunctionAddOutput(source, "v", 1, CEED_EVAL_NONE));
+  Operator unset;
+  ok(CeedOperatorCreate(ceed, source, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, unset.out()));
+  EXPECT_EQ(view(unset),
+            "CeedOperator - Scale\n  0 elements with 0 quadrature points each\n  1 field\n  0 input field:\n"
+            "  1 output field:\n    Output field 0:\n      Name: \"v\"\n      Size: 1\n      EvalMode: none\n"
+            "      Not set\n");
+  EXPECT_EQ(printed([&](FILE *stream) { ok(CeedQFunctionView(source, stream)); }),
+            "Gallery CeedQFunction - Scale\n  0 input field:\n  1 output field:\n    Output field 0:\n"
+            "      Name: \"v\"\n      Size: 1\n      EvalMode: \"none\"\n");
+}
+
 }  // namespace
