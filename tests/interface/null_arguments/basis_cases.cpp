@@ -1,0 +1,62 @@
+#include "cases.hpp"
+
+namespace hg::test {
+
+std::vector<Case> basis_cases() {
+  return {
+      HG_CASE(CeedBasisCreateTensorH1Lagrange, o.ceed, 1, 1, 3, 3, CEED_GAUSS, &o.made_basis),
+      HG_CASE(CeedBasisCreateTensorH1, o.ceed, 1, 1, 3, 2, o.matrix, o.other_matrix, o.third_matrix, o.tau,
+              &o.made_basis),
+      HG_CASE(CeedBasisCreateH1, o.ceed, CEED_TOPOLOGY_TRIANGLE, 1, 3, 2, o.matrix, optional(o.other_matrix),
+              optional(o.third_matrix), optional(o.tau), &o.made_basis),
+      HG_CASE(CeedBasisCreateHdiv, o.ceed, CEED_TOPOLOGY_TRIANGLE, 1, 3, 2, o.matrix, optional(o.other_matrix),
+              optional(o.third_matrix), optional(o.tau), &o.made_basis),
+      HG_CASE(CeedBasisCreateHcurl, o.ceed, CEED_TOPOLOGY_TRIANGLE, 1, 3, 2, o.matrix, optional(o.other_matrix),
+              optional(o.third_matrix), optional(o.tau), &o.made_basis),
+      HG_CASE(CeedBasisCreateProjection, o.coarse_basis, o.basis, &o.made_basis),
+      HG_CASE_NULLS(CeedBasisReference, o.basis),
+      HG_CASE(CeedBasisReferenceCopy, o.basis, &o.made_basis),
+      HG_CASE(CeedBasisDestroy, optional(&o.basis)),
+      HG_CASE(CeedBasisSetNumViewTabs, o.basis, 1),
+      HG_CASE(CeedBasisGetNumViewTabs, o.basis, &o.number),
+      HG_CASE(CeedBasisView, o.basis, o.stream),
+      HG_CASE(CeedBasisApply, o.basis, 2, CEED_NOTRANSPOSE, CEED_EVAL_INTERP, o.e, o.q),
+      HG_CASE(CeedBasisApplyAdd, o.basis, 2, CEED_TRANSPOSE, CEED_EVAL_INTERP, o.q, o.e),
+      HG_CASE(CeedBasisApplyAtPoints, o.basis, 2, o.counts, CEED_NOTRANSPOSE, CEED_EVAL_INTERP, o.p, o.e, o.at_p),
+      HG_CASE(CeedBasisApplyAddAtPoints, o.basis, 2, o.counts, CEED_TRANSPOSE, CEED_EVAL_INTERP, o.p, o.at_p, o.e),
+      HG_CASE(CeedBasisGetCeed, o.basis, &o.made_ceed),
+      HG_CASE(CeedBasisReturnCeed, o.basis),
+      HG_CASE(CeedBasisGetDimension, o.basis, &o.number),
+      HG_CASE(CeedBasisGetTopology, o.basis, &o.topology),
+      HG_CASE(CeedBasisGetNumComponents, o.basis, &o.number),
+      HG_CASE(CeedBasisGetNumNodes, o.basis, &o.number),
+      HG_CASE(CeedBasisGetNumNodes1D, o.basis, &o.number),
+      HG_CASE(CeedBasisGetNumQuadraturePoints, o.basis, &o.number),
+      HG_CASE(CeedBasisGetNumQuadraturePoints1D, o.basis, &o.number),
+      HG_CASE(CeedBasisGetQRef, o.basis, &o.read_array),
+      HG_CASE(CeedBasisGetQWeights, o.basis, &o.read_array),
+      HG_CASE(CeedBasisGetInterp, o.basis, &o.read_array),
+      HG_CASE(CeedBasisGetInterp1D, o.basis, &o.read_array),
+      HG_CASE(CeedBasisGetGrad, o.basis, &o.read_array),
+      HG_CASE(CeedBasisGetGrad1D, o.basis, &o.read_array),
+      HG_CASE(CeedBasisGetDiv, o.hdiv, &o.read_array),
+      HG_CASE(CeedBasisGetCurl, o.hcurl, &o.read_array),
+      HG_CASE(CeedBasisGetCollocatedGrad, o.basis, o.matrix),
+      HG_CASE(CeedBasisGetChebyshevInterp1D, o.basis, o.matrix),
+      HG_CASE(CeedBasisGetChebyshevCoefficients1D, o.basis, optional(&o.number), optional(&o.read_array)),
+      HG_CASE(CeedBasisIsTensor, o.basis, &o.flag),
+      HG_CASE(CeedBasisIsCollocated, o.basis, &o.flag),
+      HG_CASE(CeedBasisGetData, o.basis, static_cast<void *>(&o.pointer)),
+      // The reference's own data are there.
+      HG_CASE_NULLS(CeedBasisSetData, o.basis, optional(static_cast<void *>(o.matrix))),
+      HG_CASE(CeedBasisGetNumQuadratureComponents, o.basis, CEED_EVAL_GRAD, &o.number),
+      HG_CASE(CeedBasisGetDerivativeMode, o.basis, &o.eval_mode),
+      HG_CASE(CeedOperatorGetBasisPointer, o.basis, CEED_EVAL_NONE, o.matrix, &o.read_array),
+      HG_CASE(CeedBasisGetFlopsEstimate, o.basis, CEED_NOTRANSPOSE, CEED_EVAL_INTERP, false, 0, &o.size),
+      HG_CASE(CeedBasisGetFESpace, o.basis, &o.space),
+      HG_CASE(CeedBasisGetTopologyDimension, CEED_TOPOLOGY_QUAD, &o.number),
+      HG_CASE(CeedBasisEvaluateAtPoint, o.basis, o.tau, optional(o.matrix), optional(o.other_matrix)),
+  };
+}
+
+}  // namespace hg::test

@@ -1,0 +1,81 @@
+// Pointers that are NULL where they may not be: every public function gives an error and says which, and none crashes.
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "null_arguments/cases.hpp"
+#include "support/handles.hpp"
+
+namespace {
+
+using namespace hg::test;
+
+std::vector<Case> all_cases() {
+  std::vector<Case> all;
+  for (const auto &cases : {ceed_cases(), vector_cases(), restriction_cases(), basis_cases(), qfunction_cases(),
+                            context_cases(), operator_cases(), assembly_cases()}) {
+    all.insert(all.end(), cases.begin(), cases.end());
+  }
+  return all;
+}
+
+/// Functions with pointers that have no case, and why.
+const std::set<std::string> without_case = {
+    // Reports itself, with any number of arguments: below.
+    "CeedErrorImpl",
+    // Called by CeedErrorImpl() alone.
+    "CeedErrorReturn",
+    "CeedErrorStore",
+    "CeedErrorAbort",
+    "CeedErrorExit",
+    // Needs a backend with streams, and takes any handle: NULL is the default stream.
+    "CeedSetStream",
+    // Its message is not stored by a handler: below.
+    "CeedPluginLoad",
+};
+
+/// Names of the functions that the public headers declare with at least one argument.
+std::set<std::string> declared_functions() {
+  std::set<std::string> names;
+  for (const char *header : {"ceed.h", "backend.h", "plugin.h", "jit-tools.h"}) {
+    std::ifstream file(std::string(HG_PUBLIC_HEADERS "/") + header);
+    EXPECT_TRUE(file.good()) << header;
+    std::stringstream text;
+    text << file.rdbuf();
+    const std::string content = text.str();
+    const std::regex declaration(R"((?:^|\n)CEED_EXTERN[^;(]*[ *](\w+)\(\s*([^;]*)\);)");
+    for (std::sregex_iterator match(content.begin(), content.end(), declaration), end; match != end; ++match) {
+      if ((*match)[2] != "void") names.insert((*match)[1]);
+    }
+  }
+  return names;
+}
+
+TEST(NullArguments, AreRefusedUnlessTheyAreOptional) {
+  for (const Case &one : all_cases()) one.check();
+}
+
+TEST(NullArguments, AreTriedInEveryPublicFunction) {
+  std::set<std::string> tried = without_case;
+  for (const Case &one : all_cases()) EXPECT_TRUE(tried.insert(one.function).second) << one.function << " comes twice";
+  const auto declared = declared_functions();
+  EXPECT_GT(declared.size(), 300u);
+  for (const auto &name : declared) EXPECT_TRUE(tried.contains(name)) << name << "() has no case in null_arguments/";
+  for (const auto &name : tried) EXPECT_TRUE(declared.contains(name)) << name << "() is declared nowhere";
+}
+
+TEST(NullArguments, DoNotKeepAnErrorFromBeingReported) {
+  Objects objects;
+  objects.forget_messages();
+  EXPECT_EQ(CeedErrorImpl(objects.ceed, nullptr, 3, nullptr, 5, nullptr), 5);
+  EXPECT_NE(objects.messages().find(":3 in "), std::string::npos) << objects.messages();
+}
+
+TEST(NullArguments, AreNoPluginToLoad) {
+  EXPECT_NE(CeedPluginLoad(nullptr), CEED_ERROR_SUCCESS);
+  EXPECT_NE(std::string(CeedPluginLoadError()).find("NULL; expected a file name"), std::string::npos);
+}
+
+}  // namespace
