@@ -18,7 +18,7 @@ class OperatorViewTest : public testing::Test {
   void SetUp() override {
     const CeedInt strides[] = {1, 4, 4};
     ok(CeedElemRestrictionCreateStrided(ceed, 2, 4, 1, 8, strides, rstr.out()));
-    ok(CeedQFunctionCreateInteriorByName(ceed, "Scale", qf.out()));
+    ok(CeedQFunctionCreateInteriorByName(ceed, "Identity", qf.out()));
     ok(CeedQFunctionAddInput(qf, "u", 1, CEED_EVAL_NONE));
     ok(CeedQFunctionAddOutput(qf, "v", 1, CEED_EVAL_NONE));
     ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
@@ -49,13 +49,13 @@ class OperatorViewTest : public testing::Test {
 };
 
 TEST_F(OperatorViewTest, GoesByTheNameOfItsQFunctionUntilItHasOne) {
-  EXPECT_EQ(view(op), "CeedOperator - Scale\n" + fields(""));
-  EXPECT_EQ(terse(op), "CeedOperator - Scale\n");
+  EXPECT_EQ(view(op), "CeedOperator - Identity\n" + fields(""));
+  EXPECT_EQ(terse(op), "CeedOperator - Identity\n");
   ok(CeedOperatorSetName(op, "twice"));
   EXPECT_EQ(view(op), "CeedOperator - twice\n" + fields(""));
   for (const char *none : {static_cast<const char *>(nullptr), ""}) {
     ok(CeedOperatorSetName(op, none));
-    EXPECT_EQ(terse(op), "CeedOperator - Scale\n");
+    EXPECT_EQ(terse(op), "CeedOperator - Identity\n");
   }
 }
 
@@ -66,7 +66,7 @@ TEST_F(OperatorViewTest, CompositeShowsTheNamesItsPartsWereGiven) {
   ok(CeedOperatorCompositeAddSub(all, op));
   EXPECT_EQ(view(all), "Composite CeedOperator\n  SubOperator 0:\n" + fields("  "));
   CeedOperator found = nullptr;
-  ok(CeedOperatorCompositeGetSubByName(all, "Scale", &found));
+  ok(CeedOperatorCompositeGetSubByName(all, "Identity", &found));
   EXPECT_EQ(found, nullptr);
 
   ok(CeedOperatorSetName(op, "part"));
@@ -109,7 +109,7 @@ TEST_F(OperatorViewTest, OperatorsAtPointsSayThatTheyAre) {
     return indent + "  2 elements with 2 max points each\n" + indent + "  2 fields\n" + field("input", "u", indent) +
            field("output", "v", indent);
   };
-  EXPECT_EQ(view(at_points), "CeedOperator AtPoints - Scale\n" + fields_at_points(""));
+  EXPECT_EQ(view(at_points), "CeedOperator AtPoints - Identity\n" + fields_at_points(""));
   ok(CeedOperatorSetName(at_points, "moving"));
   EXPECT_EQ(view(at_points), "CeedOperator AtPoints - moving\n" + fields_at_points(""));
   EXPECT_EQ(terse(at_points), "CeedOperator AtPoints - moving\n");
@@ -121,16 +121,19 @@ TEST_F(OperatorViewTest, OperatorsAtPointsSayThatTheyAre) {
 /// What is not known yet counts as none; "none" has no plural.
 TEST_F(OperatorViewTest, ShowsWhatIsNotSet) {
   QFunction source;
-  ok(CeedQFunctionCreateInteriorByName(ceed, "Scale", source.out()));
+  const CeedQFunctionUser nothing = [](void *, const CeedInt, const CeedScalar *const *, CeedScalar *const *) {
+    return 0;
+  };
+  ok(CeedQFunctionCreateInterior(ceed, 1, nothing, "load.h:load", source.out()));
   ok(CeedQFunctionAddOutput(source, "v", 1, CEED_EVAL_NONE));
   Operator unset;
   ok(CeedOperatorCreate(ceed, source, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, unset.out()));
   EXPECT_EQ(view(unset),
-            "CeedOperator - Scale\n  0 elements with 0 quadrature points each\n  1 field\n  0 input field:\n"
+            "CeedOperator - load\n  0 elements with 0 quadrature points each\n  1 field\n  0 input field:\n"
             "  1 output field:\n    Output field 0:\n      Name: \"v\"\n      Size: 1\n      EvalMode: none\n"
             "      Not set\n");
   EXPECT_EQ(printed([&](FILE *stream) { ok(CeedQFunctionView(source, stream)); }),
-            "Gallery CeedQFunction - Scale\n  0 input field:\n  1 output field:\n    Output field 0:\n"
+            "User CeedQFunction - load\n  0 input field:\n  1 output field:\n    Output field 0:\n"
             "      Name: \"v\"\n      Size: 1\n      EvalMode: \"none\"\n");
 }
 
