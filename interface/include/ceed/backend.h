@@ -281,6 +281,7 @@ CEED_EXTERN int CeedSimultaneousDiagonalization(Ceed ceed, CeedScalar *mat_A, Ce
 /// - CEED_ERROR_DIMENSION: a field does not lie in the data.
 /// - CEED_ERROR_MINOR: an argument is NULL, or no value of its enumeration.
 /// - CEED_ERROR_UNSUPPORTED: the data of CEED_MEM_DEVICE; a label of another object or type.
+/// - CEED_ERROR_INCOMPATIBLE: the QFunction is CEED_QFUNCTION_NONE.
 ///
 /// - `field_label`: a label of this context
 /// @{

@@ -626,6 +626,7 @@ CEED_EXTERN int CeedLobattoQuadrature(CeedInt Q, CeedScalar *q_ref_1d, CeedScala
 ///
 /// Errors:
 /// - CEED_ERROR_DIMENSION: a size or number of points is out of range, or a vector is too short.
+/// - CEED_ERROR_INCOMPATIBLE: the QFunction is CEED_QFUNCTION_NONE.
 /// - CEED_ERROR_MINOR: an argument is NULL, a name is taken, or an evaluation mode is none.
 /// - CEED_ERROR_MAJOR: fields are added after it was used by an operator, applied, or asked for its fields.
 /// - CEED_ERROR_ACCESS: fields are added to one of the gallery that counts components, while its context is in use.
