@@ -2,6 +2,7 @@
 // The leaks named here are of libraries that keep memory to the end of the process.
 __attribute__((visibility("default"), weak)) const char *__asan_default_options(void);  // a program may have its own
 __attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
+__attribute__((visibility("default"))) const char *__tsan_default_options(void);
 __attribute__((visibility("default"))) const char *__ubsan_default_options(void);
 
 // Whole stacks of allocations, though they take longer: MPI unloads its modules before the end, and without the callers
@@ -20,5 +21,7 @@ const char *__lsan_default_suppressions(void) {
          "leak:libevent\n"
          "leak:_dl_map_object\n";  // dlopen() where memory runs out within it
 }
+
+const char *__tsan_default_options(void) { return "allocator_may_return_null=1"; }
 
 const char *__ubsan_default_options(void) { return "print_stacktrace=1"; }

@@ -22,12 +22,6 @@ namespace fs = std::filesystem;
 
 thread_local std::string load_error;
 
-/// One load at a time. Recursive, as the entry of a plugin may load another one.
-std::recursive_mutex &load_mutex() {
-  static std::recursive_mutex mutex;
-  return mutex;
-}
-
 /// Opens a library. Its static constructors run here, and an exception of theirs goes through dlopen(), whose
 /// declaration promises that none does: it is called by a pointer that promises nothing. Such a library stays mapped,
 /// half made, so it is refused for good. The dynamic loader's lock stays with this thread then: a later dlopen() of
@@ -70,7 +64,7 @@ void register_library(void *handle, const fs::path &path) {
 
 /// Opens a plugin and registers it. Throws Error with a message that names the file.
 void load_plugin(const fs::path &path) {
-  const std::lock_guard lock(load_mutex());
+  const std::lock_guard lock(registry_mutex());
   const auto refuse = [&](int code, const char *verdict, const char *reason) {
     const std::string message = text("Plugin '%s' %s: %s", path.c_str(), verdict, reason);
     record_refused(path.string(), message);

@@ -13,7 +13,6 @@ namespace hg {
 namespace {
 
 struct Registry {
-  std::recursive_mutex mutex;
   bool is_loaded = false;
   std::vector<RegistryEntry> entries;
   std::list<PluginRecord> plugins;  ///< only grows: CeedPluginGetList() gives out addresses of its strings
@@ -92,7 +91,7 @@ void require_complete(const CeedBackendOps &ops, const CeedBackend &backend) {
 /// The records as they are now.
 std::vector<const PluginRecord *> recorded_plugins() {
   Registry &registry = the_registry();
-  const std::lock_guard lock(registry.mutex);
+  const std::lock_guard lock(registry_mutex());
   std::vector<const PluginRecord *> records;
   for (const auto &record : registry.plugins) records.push_back(&record);
   return records;
@@ -106,9 +105,14 @@ std::string resource_list() {
 
 }  // namespace
 
+std::recursive_mutex &registry_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 std::vector<RegistryEntry> registry() {
   Registry &registry = the_registry();
-  const std::lock_guard lock(registry.mutex);
+  const std::lock_guard lock(registry_mutex());
   if (!registry.is_loaded) {
     registry.is_loaded = true;  // before it is so: a plugin may load another one
     try {
@@ -129,7 +133,7 @@ std::vector<RegistryEntry> registry() {
 
 void record_refused(std::string path, std::string error) {
   Registry &registry = the_registry();
-  const std::lock_guard lock(registry.mutex);
+  const std::lock_guard lock(registry_mutex());
   const bool is_known = std::any_of(registry.plugins.begin(), registry.plugins.end(), [&](const PluginRecord &known) {
     return known.path == path && known.plugin == nullptr && known.error == error;
   });
@@ -138,7 +142,7 @@ void record_refused(std::string path, std::string error) {
 
 bool is_registered(std::string_view path) {
   Registry &registry = the_registry();
-  const std::lock_guard lock(registry.mutex);
+  const std::lock_guard lock(registry_mutex());
   return std::any_of(registry.plugins.begin(), registry.plugins.end(), [&](const PluginRecord &known) {
     return known.path == path && known.plugin != nullptr;
   });
@@ -158,7 +162,7 @@ void register_plugin(const CeedPlugin &plugin, std::string path) {
     return text("Plugin '%s' counts %zu backends and has a NULL list of them", plugin.name, plugin.num_backends);
   });
   Registry &registry = the_registry();
-  const std::lock_guard lock(registry.mutex);
+  const std::lock_guard lock(registry_mutex());
   std::vector<RegistryEntry> entries = registry.entries;
   const auto add = [&](const char *resource, const CeedBackend &backend) {
     require(resource != nullptr && resource[0] == '/', CEED_ERROR_MINOR, [&] {
@@ -239,8 +243,7 @@ const CeedBackend &backend_named(std::string_view resource) {
 }
 
 void fill_tables(Ceed ceed, const CeedBackend &backend, const char *options) {
-  static std::recursive_mutex one_at_a_time;  // recursive: an init may open another Ceed
-  const std::lock_guard lock(one_at_a_time);
+  const std::lock_guard lock(registry_mutex());  // one init at a time, which may open another Ceed
   // From the backend to its oldest ancestor.
   std::vector<const CeedBackend *> line{&backend};
   while (line.back()->parent != nullptr) {

@@ -5,6 +5,7 @@
 #include <ceed/plugin.h>
 
 #include <cstdio>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ struct PluginRecord {
   std::string error;                   ///< why it was refused
 };
 
+/// Of the registry, of loading plugins and of opening backends: one at a time. Recursive, as a plugin's entry may load
+/// another plugin and a backend's init may open another Ceed.
+std::recursive_mutex &registry_mutex();
 /// All entries as they are now; loads the plugins on first use.
 std::vector<RegistryEntry> registry();
 /// Adds the backends of a plugin and records it with its file. Throws if its version or a name in it does not fit; then
