@@ -187,6 +187,7 @@ int CeedOperatorLinearAssemble(CeedOperator op, CeedVector values) {
                   " or more",
                   op->shown_name(), values->length, count);
     });
+    hg::require_not_read(*op, values, "vector of the entries");
     hg::check(CeedVectorSetValue(values, 0.0));
     CeedSize offset = 0;
     hg::for_each_single(*op, [&](CeedOperator_private &single) {

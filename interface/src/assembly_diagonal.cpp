@@ -260,6 +260,7 @@ void assemble(CeedOperator op, CeedVector assembled, bool is_block, bool is_adde
                 " or more",
                 op->shown_name(), is_block ? "point-block diagonal" : "diagonal", assembled->length, target->length);
   });
+  hg::require_not_read(*op, assembled, is_block ? "point-block diagonal" : "diagonal");
   if (!is_added) hg::check(CeedVectorSetValue(assembled, 0.0));
   if (!target) return;
   hg::for_each_single(*op,

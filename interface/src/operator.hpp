@@ -74,6 +74,9 @@ namespace hg {
 
 /// Throws unless every field is set and they fit together; sets is_immutable.
 void check_ready(CeedOperator_private &op);
+/// Throws (CEED_ERROR_INCOMPATIBLE) if the operator reads the vector that is to be written, as a passive input or as the
+/// coordinates of points.
+void require_not_read(CeedOperator_private &op, CeedVector vec, const char *what);
 /// The program of a single operator, lowered on the first call (which checks that the operator is ready).
 const CeedProgram &program_of(CeedOperator_private &op);
 /// Calls f for the operator, or for each sub-operator in turn.

@@ -53,6 +53,7 @@ void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passiv
   require(in != out || !is_given(in), CEED_ERROR_INCOMPATIBLE, [&] {
     return text("CeedOperator '%s': input and output are one vector; expected two", op->shown_name());
   });
+  hg::require_not_read(*op, out, "output");
   if (!is_added && is_given(out)) hg::check(CeedVectorSetValue(out, 0.0));
   CeedApplyMode mode = passive == Passive::write ? CEED_APPLY_ADD_ACTIVE : CEED_APPLY_ADD_ALL;
   if (op->is_composite && passive == Passive::write) {

@@ -223,6 +223,22 @@ void check_ready(CeedOperator_private &op) {
   op.is_immutable = true;
 }
 
+void require_not_read(CeedOperator_private &op, CeedVector vec, const char *what) {
+  if (vec->is_sentinel) return;
+  for_each_single(op, [&](CeedOperator_private &single) {
+    for (const CeedOperatorField field : single.input_list) {
+      require(field->vec.get() != vec, CEED_ERROR_INCOMPATIBLE, [&] {
+        return text("CeedOperator '%s': the vector of its passive input '%s' is its %s too; expected another one",
+                    single.shown_name(), field->qf_field->name.c_str(), what);
+      });
+    }
+    require(single.points.get() != vec, CEED_ERROR_INCOMPATIBLE, [&] {
+      return text("CeedOperator '%s': the vector of its points is its %s too; expected another one",
+                  single.shown_name(), what);
+    });
+  });
+}
+
 const CeedProgram &program_of(CeedOperator_private &op) {
   require(!op.is_composite, CEED_ERROR_MINOR, [&] {
     return text("CeedOperator '%s' is composite; only its sub-operators have programs", op.shown_name());

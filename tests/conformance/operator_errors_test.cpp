@@ -169,6 +169,20 @@ TEST_P(OperatorErrorsTest, InputAndOutputTooShort) {
   expect_works();
 }
 
+/// What an operator reads it cannot write at once; it stays as it was.
+TEST_P(OperatorErrorsTest, VectorThatIsAPassiveInput) {
+  const Vector passive = make_vector(ceed, 7, 3), right = make_vector(ceed, 7, 1);
+  ok(set("u", rstr, basis, passive));
+  set_w(), set_v();
+  for (const auto apply : {CeedOperatorApply, CeedOperatorApplyAdd, CeedOperatorApplyAddActive}) {
+    expect_error(apply(op, CEED_VECTOR_NONE, passive, CEED_REQUEST_IMMEDIATE), CEED_ERROR_INCOMPATIBLE,
+                 {"the operator", "'u'", "output"});
+  }
+  EXPECT_EQ(values_of(passive), Values(7, 3));
+  ok(CeedOperatorApply(op, CEED_VECTOR_NONE, right, CEED_REQUEST_IMMEDIATE));
+  EXPECT_NE(max_norm(values_of(right)), 0);
+}
+
 /// A vector that the caller still holds.
 TEST_P(OperatorErrorsTest, VectorThatIsInUse) {
   set_all();

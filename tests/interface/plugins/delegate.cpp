@@ -2,13 +2,14 @@
 // options of the resource are kept.
 #include <ceed/plugin.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstring>
 
 namespace {
 
 CeedBackendOps parent;
-int num_applications = 0;
+std::atomic<int> num_applications = 0;
 char last_options[64] = "";
 
 int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
