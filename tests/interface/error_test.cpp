@@ -89,7 +89,7 @@ TEST(ErrorDeathTest, AbortPrintsAndAborts) {
   EXPECT_DEATH(
       {
         Ceed ceed = open_with("abort");
-        CeedError(ceed, CEED_ERROR_MAJOR, "the roof is %s", "gone");
+        static_cast<void>(CeedError(ceed, CEED_ERROR_MAJOR, "the roof is %s", "gone"));
       },
       "error_test.*in .*\\(\\): the roof is gone");
 }
@@ -105,7 +105,7 @@ TEST(ErrorDeathTest, AbortIsTheDefault) {
   EXPECT_DEATH(
       {
         Ceed ceed = open_with("no such handler");
-        CeedError(ceed, 1, "still an end");
+        static_cast<void>(CeedError(ceed, 1, "still an end"));
       },
       "still an end");
 }
@@ -114,14 +114,14 @@ TEST(ErrorDeathTest, ExitPrintsAndExitsWithTheCode) {
   EXPECT_EXIT(
       {
         Ceed ceed = open_with("exit");
-        CeedError(ceed, CEED_ERROR_INCOMPLETE, "half a bridge");
+        static_cast<void>(CeedError(ceed, CEED_ERROR_INCOMPLETE, "half a bridge"));
       },
       testing::ExitedWithCode(CEED_ERROR_INCOMPLETE), "half a bridge");
   // Negative codes are what the operating system makes of them: not 0.
   EXPECT_EXIT(
       {
         Ceed ceed = open_with("exit");
-        CeedError(ceed, CEED_ERROR_MAJOR, "no bridge");
+        static_cast<void>(CeedError(ceed, CEED_ERROR_MAJOR, "no bridge"));
       },
       testing::ExitedWithCode(255), "no bridge");
 }
