@@ -53,7 +53,7 @@ if(HONEYGUIDE_FUZZ)
   target_compile_options(hg_build_flags INTERFACE -fsanitize=fuzzer-no-link -fno-sanitize=function,vptr)
 endif()
 if(HONEYGUIDE_COVERAGE)
-  target_compile_options(hg_build_flags INTERFACE --coverage -O0)
+  target_compile_options(hg_build_flags INTERFACE --coverage -fprofile-update=atomic -O0)
   target_link_options(hg_build_flags INTERFACE --coverage)
 endif()
 
