@@ -47,8 +47,6 @@ std::vector<Case> basis_cases() {
       HG_CASE(CeedBasisIsTensor, o.basis, &o.flag),
       HG_CASE(CeedBasisIsCollocated, o.basis, &o.flag),
       HG_CASE(CeedBasisGetData, o.basis, static_cast<void *>(&o.pointer)),
-      // The reference's own data are there.
-      HG_CASE_NULLS(CeedBasisSetData, o.basis, optional(static_cast<void *>(o.matrix))),
       HG_CASE(CeedBasisGetNumQuadratureComponents, o.basis, CEED_EVAL_GRAD, &o.number),
       HG_CASE(CeedBasisGetDerivativeMode, o.basis, &o.eval_mode),
       HG_CASE(CeedOperatorGetBasisPointer, o.basis, CEED_EVAL_NONE, o.matrix, &o.read_array),

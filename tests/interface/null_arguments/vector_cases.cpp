@@ -40,8 +40,6 @@ std::vector<Case> vector_cases() {
       HG_CASE(CeedVectorHasBorrowedArrayOfType, o.x, CEED_MEM_HOST, &o.flag),
       HG_CASE(CeedVectorGetState, o.x, &o.state),
       HG_CASE_NULLS(CeedVectorGetData, o.x, static_cast<void *>(&o.pointer)),
-      // The reference's own data are there.
-      HG_CASE_NULLS(CeedVectorSetData, o.x, optional(static_cast<void *>(o.matrix))),
       HG_CASE(CeedRequestWait, &o.request),
   };
 }
