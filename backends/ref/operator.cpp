@@ -247,6 +247,21 @@ std::unique_ptr<Reader> read_points(const CeedProgram &program) {
   return program.at_points ? std::make_unique<Reader>(program.points) : nullptr;
 }
 
+/// All elements in turn. A function of its own: among the arrays that come and go, and the handlers of errors, GCC 12 makes
+/// this loop a tenth slower.
+[[gnu::noinline]] void apply_elements(const CeedProgram &program, ElementLoop &loop, const CeedScalar *points,
+                                      const std::vector<std::unique_ptr<Reader>> &sources, void *context,
+                                      const std::vector<CeedScalar *> &sinks) {
+  for (CeedInt e = 0; e < program.num_elem; e++) {
+    if (loop.num_points(e) == 0) continue;
+    loop.set_points(e, points);
+    for (CeedInt s = 0; s < program.num_sources; s++) loop.gather(s, e, sources[s]->data());
+    for (CeedInt i = 0; i < program.num_inputs; i++) loop.evaluate(i, e);
+    loop.call(e, context);
+    loop.scatter_add(e, sinks);
+  }
+}
+
 int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
   return wall(CeedOperatorReturnCeed(op), [&] {
     ElementLoop loop(*program);
@@ -276,14 +291,7 @@ int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVe
       }
     }
     ContextData context(program->qf);
-    for (CeedInt e = 0; e < program->num_elem; e++) {
-      if (loop.num_points(e) == 0) continue;
-      loop.set_points(e, points ? points->data() : nullptr);
-      for (CeedInt s = 0; s < program->num_sources; s++) loop.gather(s, e, sources[s]->data());
-      for (CeedInt i = 0; i < program->num_inputs; i++) loop.evaluate(i, e);
-      loop.call(e, context.data());
-      loop.scatter_add(e, sinks);
-    }
+    apply_elements(*program, loop, points ? points->data() : nullptr, sources, context.data(), sinks);
     context.release();
     for (const auto &writer : writers) writer->release();
     for (const auto &source : sources) source->release();
