@@ -50,9 +50,7 @@ int get_ceed(const CeedObject_private *object, Ceed *ceed, const char *function)
   return guard(
       ceed_of(object),
       [&] {
-        Ceed owner = deref(object, "Object of a Ceed").owner();
-        result(ceed, "ceed") = owner;
-        reference(owner);
+        hand_out(deref(object, "Object of a Ceed").owner(), ceed, "ceed");
       },
       function);
 }

@@ -88,6 +88,13 @@ int set_view_tabs(CeedObject_private *object, CeedInt num_tabs, const char *func
 int get_view_tabs(const CeedObject_private *object, CeedInt *num_tabs, const char *function = __builtin_FUNCTION());
 int get_ceed(const CeedObject_private *object, Ceed *ceed, const char *function = __builtin_FUNCTION());
 
+/// A counted reference of an object that may be NULL for the caller; throws if the argument `name` is NULL.
+template <typename T>
+void hand_out(T *object, T **handle, const char *name, Where where = Where::current()) {
+  result(handle, name, where) = object;
+  reference(object);
+}
+
 /// Body of every Ceed*ReferenceCopy: *copy becomes another counted reference to `object`; what it held is dropped.
 /// *copy must be NULL or a live handle.
 template <typename T>

@@ -282,7 +282,6 @@ int CeedOperatorGetNumQuadraturePoints(CeedOperator op, CeedInt *num_qpts) {
 int CeedOperatorGetQFunction(CeedOperator op, CeedQFunction *qf) {
   return hg::guard(hg::ceed_of(op), [&] {
     require_single(hg::deref(op, "CeedOperator"));
-    hg::result(qf, "qf") = op->qf.get();
-    hg::reference(op->qf.get());
+    hg::hand_out(op->qf.get(), qf, "qf");
   });
 }

@@ -10,12 +10,10 @@ using hg::text;
 
 enum class Passive { write, add };
 
-bool is_given(CeedVector vec) { return vec != CEED_VECTOR_NONE && vec != CEED_VECTOR_ACTIVE; }
-
 void check_vector(const CeedOperator_private &op, CeedVector vec, CeedSize expected, const char *what) {
   hg::deref(vec, what);
   if (expected < 0) return;  // an operator without an active input ignores one, without an output it gives zeros
-  require(is_given(vec), CEED_ERROR_INCOMPATIBLE, [&] {
+  require(!vec->is_sentinel, CEED_ERROR_INCOMPATIBLE, [&] {
     return text("CeedOperator '%s' has an active %s; expected a vector of length %" CeedSize_FMT, op.shown_name(), what,
                 expected);
   });
@@ -43,18 +41,18 @@ std::vector<CeedVector> passive_outputs(CeedOperator_private &op) {
 void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passive passive) {
   hg::check_ready(hg::deref(op, "CeedOperator"));
   if (op->is_empty()) {
-    if (!is_added && is_given(out)) hg::check(CeedVectorSetValue(out, 0.0));
+    if (!is_added && !hg::deref(out, "output").is_sentinel) hg::check(CeedVectorSetValue(out, 0.0));
     return;
   }
   CeedSize in_length = -1, out_length = -1;
   hg::check(CeedOperatorGetActiveVectorLengths(op, &in_length, &out_length));
   check_vector(*op, in, in_length, "input");
   check_vector(*op, out, out_length, "output");
-  require(in != out || !is_given(in), CEED_ERROR_INCOMPATIBLE, [&] {
+  require(in != out || in->is_sentinel, CEED_ERROR_INCOMPATIBLE, [&] {
     return text("CeedOperator '%s': input and output are one vector; expected two", op->shown_name());
   });
   hg::require_not_read(*op, out, "output");
-  if (!is_added && is_given(out)) hg::check(CeedVectorSetValue(out, 0.0));
+  if (!is_added && !out->is_sentinel) hg::check(CeedVectorSetValue(out, 0.0));
   CeedApplyMode mode = passive == Passive::write ? CEED_APPLY_ADD_ACTIVE : CEED_APPLY_ADD_ALL;
   if (op->is_composite && passive == Passive::write) {
     // Sub-operators may share a passive output: it is cleared once, then all of them add.

@@ -142,9 +142,7 @@ int CeedOperatorGetContext(CeedOperator op, CeedQFunctionContext *ctx) {
     require(!hg::deref(op, "CeedOperator").is_composite, CEED_ERROR_INCOMPATIBLE, [&] {
       return text("CeedOperator '%s' is composite; ask its sub-operators for their contexts", op->shown_name());
     });
-    const CeedQFunctionContext context = op->qf->context.get();
-    hg::result(ctx, "ctx") = context;
-    hg::reference(context);
+    hg::hand_out(op->qf->context.get(), ctx, "ctx");
   });
 }
 

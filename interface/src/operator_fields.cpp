@@ -171,9 +171,7 @@ int get(CeedOperatorField op_field, hg::Ref<T> CeedOperatorField_private::*membe
   return hg::guard(
       nullptr,
       [&] {
-        T *object = (deref(op_field).*member).get();
-        hg::result(handle, name) = object;
-        hg::reference(object);
+        hg::hand_out((deref(op_field).*member).get(), handle, name);
       },
       function);
 }
@@ -461,9 +459,7 @@ int CeedOperatorGetActiveBases(CeedOperator op, CeedBasis *active_input_basis, C
 
 int CeedOperatorGetActiveBasis(CeedOperator op, CeedBasis *active_basis) {
   return hg::guard(hg::ceed_of(op), [&] {
-    CeedBasis basis = single_active(op, true, &CeedOperatorField_private::basis, "basis");
-    hg::result(active_basis, "active_basis") = basis;
-    hg::reference(basis);
+    hg::hand_out(single_active(op, true, &CeedOperatorField_private::basis, "basis"), active_basis, "active_basis");
   });
 }
 
@@ -476,9 +472,7 @@ int CeedOperatorGetActiveElemRestrictions(CeedOperator op, CeedElemRestriction *
 
 int CeedOperatorGetActiveElemRestriction(CeedOperator op, CeedElemRestriction *active_rstr) {
   return hg::guard(hg::ceed_of(op), [&] {
-    CeedElemRestriction rstr = single_active(op, true, &CeedOperatorField_private::rstr, "restriction");
-    hg::result(active_rstr, "active_rstr") = rstr;
-    hg::reference(rstr);
+    hg::hand_out(single_active(op, true, &CeedOperatorField_private::rstr, "restriction"), active_rstr, "active_rstr");
   });
 }
 

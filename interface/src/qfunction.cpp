@@ -391,9 +391,7 @@ int CeedQFunctionGetUserFunction(CeedQFunction qf, CeedQFunctionUser *f) {
 
 int CeedQFunctionGetContext(CeedQFunction qf, CeedQFunctionContext *ctx) {
   return hg::guard(hg::ceed_of(qf), [&] {
-    const auto &f = hg::deref(qf, "CeedQFunction");
-    hg::result(ctx, "ctx") = f.context.get();
-    hg::reference(f.context.get());
+    hg::hand_out(hg::deref(qf, "CeedQFunction").context.get(), ctx, "ctx");
   });
 }
 
