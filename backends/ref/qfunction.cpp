@@ -74,7 +74,8 @@ int apply(CeedQFunction qf, CeedInt Q, const CeedVector *u, const CeedVector *v)
 }  // namespace
 
 void fill_qfunction_ops(CeedQFunctionOps &ops) {
-  ops = {.create = nullptr, .destroy = nullptr, .apply = apply};
+  ops = {
+      .create = nullptr, .destroy = nullptr, .apply = apply, .set_cuda_function = nullptr, .set_hip_function = nullptr};
 }
 
 }  // namespace hg::ref

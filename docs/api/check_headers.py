@@ -29,7 +29,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
-HEADERS = ["ceed.h", "backend.h", "plugin.h", "jit-tools.h"]
+HEADERS = ["ceed.h", "backend.h", "plugin.h", "jit-tools.h", "cuda.h", "hip.h"]
 HANDLES = ["Ceed", "CeedVector", "CeedElemRestriction", "CeedBasis", "CeedQFunction", "CeedQFunctionContext",
            "CeedOperator", "CeedObject", "CeedRequest"]
 OWNERSHIP = re.compile(r"\b(frees?|free\(\)|points into|belongs?|keeps?|(not )?counted|caller destroys|valid|lives?"

@@ -1,5 +1,8 @@
 #include "qfunction.hpp"
 
+#include <ceed/cuda.h>
+#include <ceed/hip.h>
+
 #include <map>
 #include <mutex>
 
@@ -46,9 +49,8 @@ void split_source(const char *source, CeedQFunction_private &qf) {
 
 hg::Ref<CeedQFunction_private> create(Ceed ceed, CeedInt vec_length, CeedQFunctionUser function, const char *source) {
   hg::deref(ceed, "Ceed");
-  hg::require(vec_length >= 1, CEED_ERROR_DIMENSION, [&] {
-    return hg::text("QFunction: vec_length is %" CeedInt_FMT "; expected at least 1", vec_length);
-  });
+  hg::require(vec_length >= 1, CEED_ERROR_DIMENSION,
+              [&] { return hg::text("QFunction: vec_length is %" CeedInt_FMT "; expected at least 1", vec_length); });
   auto qf = hg::Ref<CeedQFunction_private>::adopt(new CeedQFunction_private);
   qf->ceed = hg::Ref<Ceed_private>(ceed);
   qf->vec_length = vec_length;
@@ -113,6 +115,14 @@ int get(CeedQFunctionField qf_field, T *value, const char *name, Get &&getter,
         const char *function = __builtin_FUNCTION()) {
   return hg::guard(
       nullptr, [&] { hg::result(value, name) = getter(hg::deref(qf_field, "CeedQFunctionField")); }, function);
+}
+
+/// Shows a loaded kernel to a backend that launches such ones.
+template <typename F>
+void set_device_function(CeedQFunction qf, F *f, int (*CeedQFunctionOps::*entry)(CeedQFunction, F *)) {
+  const auto &ops = deref_qfunction(qf).ceed->ops.qfunction;
+  hg::require_argument(f, "f (a loaded kernel)");
+  if (ops.*entry != nullptr) hg::check((ops.*entry)(qf, f));
 }
 
 }  // namespace
@@ -281,9 +291,7 @@ int CeedQFunctionGetFields(CeedQFunction qf, CeedInt *num_input_fields, CeedQFun
 }
 
 int CeedQFunctionSetContext(CeedQFunction qf, CeedQFunctionContext ctx) {
-  return hg::guard(hg::ceed_of(qf), [&] {
-    deref_qfunction(qf).context = hg::Ref<CeedQFunctionContext_private>(ctx);
-  });
+  return hg::guard(hg::ceed_of(qf), [&] { deref_qfunction(qf).context = hg::Ref<CeedQFunctionContext_private>(ctx); });
 }
 
 int CeedQFunctionSetContextWritable(CeedQFunction qf, bool is_writable) {
@@ -326,7 +334,17 @@ int CeedQFunctionGetCeed(CeedQFunction qf, Ceed *ceed) {
   return hg::get_ceed(qf, ceed);
 }
 
-Ceed CeedQFunctionReturnCeed(CeedQFunction qf) { return hg::ceed_of(qf); }
+Ceed CeedQFunctionReturnCeed(CeedQFunction qf) {
+  return hg::ceed_of(qf);
+}
+
+int CeedQFunctionSetCUDAUserFunction(CeedQFunction qf, CUfunc_st *f) {
+  return hg::guard(hg::ceed_of(qf), [&] { set_device_function(qf, f, &CeedQFunctionOps::set_cuda_function); });
+}
+
+int CeedQFunctionSetHIPUserFunction(CeedQFunction qf, ihipModuleSymbol_t *f) {
+  return hg::guard(hg::ceed_of(qf), [&] { set_device_function(qf, f, &CeedQFunctionOps::set_hip_function); });
+}
 
 int CeedQFunctionApply(CeedQFunction qf, CeedInt Q, CeedVector *u, CeedVector *v) {
   return hg::guard(hg::ceed_of(qf), [&] {
@@ -340,7 +358,8 @@ int CeedQFunctionApply(CeedQFunction qf, CeedInt Q, CeedVector *u, CeedVector *v
         const CeedSize needed = static_cast<CeedSize>(Q) * fields[i]->size;
         const CeedSize length = hg::deref_vector(vectors[i], "vector of a QFunction field").length;
         hg::require(length >= needed, CEED_ERROR_DIMENSION, [&] {
-          return hg::text("QFunction '%s' field '%s': vector of length %" CeedSize_FMT "; expected at least %" CeedSize_FMT,
+          return hg::text("QFunction '%s' field '%s': vector of length %" CeedSize_FMT
+                          "; expected at least %" CeedSize_FMT,
                           qf->kernel_name.c_str(), fields[i]->name.c_str(), length, needed);
         });
       }
@@ -390,9 +409,7 @@ int CeedQFunctionGetUserFunction(CeedQFunction qf, CeedQFunctionUser *f) {
 }
 
 int CeedQFunctionGetContext(CeedQFunction qf, CeedQFunctionContext *ctx) {
-  return hg::guard(hg::ceed_of(qf), [&] {
-    hg::hand_out(hg::deref(qf, "CeedQFunction").context.get(), ctx, "ctx");
-  });
+  return hg::guard(hg::ceed_of(qf), [&] { hg::hand_out(hg::deref(qf, "CeedQFunction").context.get(), ctx, "ctx"); });
 }
 
 int CeedQFunctionGetContextData(CeedQFunction qf, CeedMemType mem_type, void *data) {

@@ -53,6 +53,8 @@ constexpr Entry all_entries[] = {
     {"qfunction.create", offsetof(CeedBackendOps, qfunction.create)},
     {"qfunction.destroy", offsetof(CeedBackendOps, qfunction.destroy)},
     {"qfunction.apply", offsetof(CeedBackendOps, qfunction.apply)},
+    {"qfunction.set_cuda_function", offsetof(CeedBackendOps, qfunction.set_cuda_function)},
+    {"qfunction.set_hip_function", offsetof(CeedBackendOps, qfunction.set_hip_function)},
     {"op.create", offsetof(CeedBackendOps, op.create)},
     {"op.destroy", offsetof(CeedBackendOps, op.destroy)},
     {"op.apply_add", offsetof(CeedBackendOps, op.apply_add)},

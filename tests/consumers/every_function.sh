@@ -6,7 +6,7 @@ export PKG_CONFIG_PATH=$PREFIX/$LIBDIR/pkgconfig
 rm -rf "$SCRATCH"; mkdir -p "$SCRATCH"; cd "$SCRATCH"
 
 # Declarations, each on one line: up to the parenthesis for functions, up to [ or ; for data.
-cat "$PREFIX"/include/ceed/{ceed,types,backend,plugin,jit-tools}.h | grep -E '^CEED_EXTERN ' > declarations
+cat "$PREFIX"/include/ceed/{ceed,types,backend,plugin,jit-tools,cuda,hip}.h | grep -E '^CEED_EXTERN ' > declarations
 sed -nE 's/^CEED_EXTERN [^(;[]*[ *](Ceed[A-Za-z0-9]+)\(.*/\1/p' declarations | sort -u > functions
 sed -nE 's/^CEED_EXTERN [^(]*[ *](Ceed[A-Za-z0-9]+|CEED_[A-Z_]+)(\[[0-9]*\])?;.*/\1/p' declarations | sort -u > data
 declared=$(sort -u declarations | grep -vc 'ceed_plugin_v1')
@@ -18,6 +18,8 @@ named=$(($(wc -l < functions) + $(wc -l < data)))
   cat << 'END'
 #include <ceed.h>
 #include <ceed/backend.h>
+#include <ceed/cuda.h>
+#include <ceed/hip.h>
 #include <ceed/jit-tools.h>
 #include <ceed/plugin.h>
 #include <stdio.h>

@@ -109,12 +109,17 @@ typedef struct {
                          CeedEvalMode eval_mode, CeedVector x_ref, CeedVector u, CeedVector v, bool add);
 } CeedBasisOps;
 
+struct CUfunc_st;           // what a CUfunction points to
+struct ihipModuleSymbol_t;  // what a hipFunction_t points to
+
 /// QFunctions called by themselves.
 typedef struct {
   int (*create)(CeedQFunction qf);   ///< optional
   int (*destroy)(CeedQFunction qf);  ///< optional
   /// CeedQFunctionApply()
   int (*apply)(CeedQFunction qf, CeedInt Q, const CeedVector *u, const CeedVector *v);
+  int (*set_cuda_function)(CeedQFunction qf, struct CUfunc_st *f);          ///< optional; see ceed/cuda.h
+  int (*set_hip_function)(CeedQFunction qf, struct ihipModuleSymbol_t *f);  ///< optional; see ceed/hip.h
 } CeedQFunctionOps;
 
 /// A distinct (restriction, vector) of a program: gathered or scattered once, however many fields use it.

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <ceed/backend.h>
+#include <ceed/cuda.h>
+#include <ceed/hip.h>
 #include <ceed/jit-tools.h>
 #include <ceed/plugin.h>
 #include <gtest/gtest.h>

@@ -19,6 +19,8 @@ std::vector<Case> qfunction_cases() {
       HG_CASE(CeedQFunctionSetContext, o.new_qf, optional(o.ctx)),
       HG_CASE(CeedQFunctionSetContextWritable, o.qf, false),
       HG_CASE(CeedQFunctionSetUserFlopsEstimate, o.qf, 1),
+      HG_CASE(CeedQFunctionSetCUDAUserFunction, o.qf, reinterpret_cast<CUfunc_st *>(&o.number)),
+      HG_CASE(CeedQFunctionSetHIPUserFunction, o.qf, reinterpret_cast<ihipModuleSymbol_t *>(&o.number)),
       HG_CASE(CeedQFunctionGetFlopsEstimate, o.qf, &o.size),
       HG_CASE(CeedQFunctionSetNumViewTabs, o.qf, 1),
       HG_CASE(CeedQFunctionGetNumViewTabs, o.qf, &o.number),
