@@ -38,6 +38,25 @@ std::vector<CeedVector> passive_outputs(CeedOperator_private &op) {
   return vectors;
 }
 
+/// What is read must hold values and nobody may write it, what is written must be free: checked before anything changes.
+void check_access(CeedOperator_private &op, CeedVector in, CeedVector out, bool is_added, Passive passive) {
+  hg::for_each_single(op, [&](CeedOperator_private &single) {
+    const CeedProgram &program = hg::program_of(single);
+    if (program.num_elem == 0) return;
+    for (CeedInt s = 0; s < program.num_sources; s++) {
+      CeedVector_private &vec = *(program.sources[s].is_active ? in : program.sources[s].vec);
+      hg::require_readable(vec);
+      hg::require_values(vec, "Input vector");
+    }
+    for (CeedInt t = 0; t < program.num_sinks; t++) {
+      const CeedProgramSide &sink = program.sinks[t];
+      CeedVector_private &vec = *(sink.is_active ? out : sink.vec);
+      hg::require_writable(vec);
+      if (sink.is_active ? is_added : passive == Passive::add) hg::require_values(vec, "Output vector that is added to");
+    }
+  });
+}
+
 void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passive passive) {
   hg::check_ready(hg::deref(op, "CeedOperator"));
   if (op->is_empty()) {
@@ -52,6 +71,7 @@ void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passiv
     return text("CeedOperator '%s': input and output are one vector; expected two", op->shown_name());
   });
   hg::require_not_read(*op, out, "output");
+  check_access(*op, in, out, is_added, passive);
   if (!is_added && !out->is_sentinel) hg::check(CeedVectorSetValue(out, 0.0));
   CeedApplyMode mode = passive == Passive::write ? CEED_APPLY_ADD_ACTIVE : CEED_APPLY_ADD_ALL;
   if (op->is_composite && passive == Passive::write) {

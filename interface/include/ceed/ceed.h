@@ -994,7 +994,7 @@ CEED_EXTERN int CeedOperatorGetContextBooleanRead(CeedOperator op, CeedContextFi
 /// Ends the access, and sets *values to NULL; `values` may be NULL.
 CEED_EXTERN int CeedOperatorRestoreContextBooleanRead(CeedOperator op, CeedContextFieldLabel field_label,
                                                       const bool **values);
-/// out = A in. Passive outputs are written. It returns the code of the QFunction where that fails.
+/// out = A in. Passive outputs are written. CEED_ERROR_BACKEND: the QFunction returned another code than 0.
 CEED_EXTERN int CeedOperatorApply(CeedOperator op, CeedVector in, CeedVector out, CeedRequest *request);
 /// out += A in; passive outputs are added to as well.
 CEED_EXTERN int CeedOperatorApplyAdd(CeedOperator op, CeedVector in, CeedVector out, CeedRequest *request);
