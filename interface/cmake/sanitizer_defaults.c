@@ -1,6 +1,7 @@
 // Settings of the sanitizers for every program of ours, so that none need be set in the environment.
 // The leaks named here are of libraries that keep memory to the end of the process.
 __attribute__((visibility("default"), weak)) const char *__asan_default_options(void);  // a program may have its own
+__attribute__((visibility("default"))) const char *__lsan_default_options(void);
 __attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
 __attribute__((visibility("default"))) const char *__tsan_default_options(void);
 __attribute__((visibility("default"))) const char *__ubsan_default_options(void);
@@ -10,6 +11,9 @@ __attribute__((visibility("default"))) const char *__ubsan_default_options(void)
 const char *__asan_default_options(void) {
   return "detect_stack_use_after_return=1:strict_string_checks=1:fast_unwind_on_malloc=0:allocator_may_return_null=1";
 }
+
+// Tests read what programs write to standard error.
+const char *__lsan_default_options(void) { return "print_suppressions=0"; }
 
 const char *__lsan_default_suppressions(void) {
   return "leak:libmpi.so\n"

@@ -5,10 +5,12 @@
 #include <cstdlib>
 #include <new>
 
-// clang's address sanitizer is a part of the program and starts before a malloc() of its own could pass on to it: there
-// operator new fails alone.
-#if defined(__clang__) && defined(__has_feature)
-#if __has_feature(address_sanitizer)
+// The thread sanitizer, and clang's address sanitizer, which is a part of the program, allocate before a malloc() of the
+// program's own could pass on to them: there operator new fails alone.
+#if defined(__SANITIZE_THREAD__)
+#define HG_TEST_KEEPS_MALLOC
+#elif defined(__clang__) && defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define HG_TEST_KEEPS_MALLOC
 #endif
 #endif
