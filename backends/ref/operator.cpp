@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "../host/access.hpp"
 #include "basis.hpp"
 #include "restriction.hpp"
 
@@ -13,82 +14,7 @@ namespace hg::ref {
 
 namespace {
 
-/// What the operator's C calls return on the way out of C++ code; the error has been reported.
-struct Failed {
-  int code;
-};
-
-void chk(int code) {
-  if (code != CEED_ERROR_SUCCESS) throw Failed{code};
-}
-
-template <typename F>
-int wall(Ceed ceed, F &&f) {
-  try {
-    f();
-    return CEED_ERROR_SUCCESS;
-  } catch (const Failed &failed) {
-    return failed.code > 0 ? CEED_ERROR_BACKEND : failed.code;
-  } catch (const std::bad_alloc &) {
-    return CeedError(ceed, CEED_ERROR_BACKEND, "Out of memory");
-  } catch (const std::exception &error) {
-    return CeedError(ceed, CEED_ERROR_BACKEND, "%s", error.what());
-  }
-}
-
-/// A host array for a scope. release() ends it before, where an error still counts.
-class Reader {
- public:
-  explicit Reader(CeedVector vec) : vec_(vec) { chk(CeedVectorGetArrayRead(vec, CEED_MEM_HOST, &array_)); }
-  Reader(const Reader &) = delete;
-  Reader &operator=(const Reader &) = delete;
-  ~Reader() {
-    if (vec_ != nullptr) CeedVectorRestoreArrayRead(vec_, &array_);
-  }
-  void release() { chk(CeedVectorRestoreArrayRead(std::exchange(vec_, nullptr), &array_)); }
-  const CeedScalar *data() const { return array_; }
-
- private:
-  CeedVector vec_;
-  const CeedScalar *array_ = nullptr;
-};
-
-class Writer {
- public:
-  enum Mode { read_write, write_only };
-  explicit Writer(CeedVector vec, Mode mode = read_write) : vec_(vec) {
-    chk(mode == read_write ? CeedVectorGetArray(vec, CEED_MEM_HOST, &array_)
-                           : CeedVectorGetArrayWrite(vec, CEED_MEM_HOST, &array_));
-  }
-  Writer(const Writer &) = delete;
-  Writer &operator=(const Writer &) = delete;
-  ~Writer() {
-    if (vec_ != nullptr) CeedVectorRestoreArray(vec_, &array_);
-  }
-  void release() { chk(CeedVectorRestoreArray(std::exchange(vec_, nullptr), &array_)); }
-  CeedScalar *data() const { return array_; }
-
- private:
-  CeedVector vec_;
-  CeedScalar *array_ = nullptr;
-};
-
-/// The context's data for a scope.
-class ContextData {
- public:
-  explicit ContextData(CeedQFunction qf) : qf_(qf) { chk(CeedQFunctionGetContextData(qf, CEED_MEM_HOST, &data_)); }
-  ContextData(const ContextData &) = delete;
-  ContextData &operator=(const ContextData &) = delete;
-  ~ContextData() {
-    if (qf_ != nullptr) CeedQFunctionRestoreContextData(qf_, &data_);
-  }
-  void release() { chk(CeedQFunctionRestoreContextData(std::exchange(qf_, nullptr), &data_)); }
-  void *data() const { return data_; }
-
- private:
-  CeedQFunction qf_;
-  void *data_ = nullptr;
-};
+using host::chk, host::ContextData, host::for_each_active, host::wall, host::Writer;
 
 /// One element's values at its points, in the QFunction's layout: component c of point q at [c*stride + q], where the
 /// stride is the number of points rounded up to the QFunction's vector length.
@@ -111,15 +37,18 @@ class ElementLoop {
     const CeedInt max_points = round_up(program.num_qpts);
     const auto size_fields = [&](const CeedProgramField *fields, CeedInt count, std::vector<PointValues> &values) {
       for (CeedInt i = 0; i < count; i++) {
-        values.push_back({std::vector<CeedScalar>(static_cast<std::size_t>(max_points) * fields[i].size), fields[i].size});
+        values.push_back(
+            {std::vector<CeedScalar>(static_cast<std::size_t>(max_points) * fields[i].size), fields[i].size});
       }
     };
     size_fields(program.inputs, program.num_inputs, inputs_);
     size_fields(program.outputs, program.num_outputs, outputs_);
     for (auto &input : inputs_) in_.push_back(input.values.data());
     for (auto &output : outputs_) out_.push_back(output.values.data());
-    const auto size_sides = [](const CeedProgramSide *sides, CeedInt count, std::vector<std::vector<CeedScalar>> &work) {
-      for (CeedInt i = 0; i < count; i++) work.emplace_back(static_cast<std::size_t>(sides[i].elem_size) * sides[i].num_comp);
+    const auto size_sides = [](const CeedProgramSide *sides, CeedInt count,
+                               std::vector<std::vector<CeedScalar>> &work) {
+      for (CeedInt i = 0; i < count; i++)
+        work.emplace_back(static_cast<std::size_t>(sides[i].elem_size) * sides[i].num_comp);
     };
     size_sides(program.sources, program.num_sources, source_work_);
     size_sides(program.sinks, program.num_sinks, sink_work_);
@@ -137,7 +66,9 @@ class ElementLoop {
   }
 
   /// Gathers source `s` of element e from its L-vector.
-  void gather(CeedInt s, CeedInt e, const CeedScalar *l_vector) { sources_[s].gather(e, l_vector, source_work_[s].data()); }
+  void gather(CeedInt s, CeedInt e, const CeedScalar *l_vector) {
+    sources_[s].gather(e, l_vector, source_work_[s].data());
+  }
 
   /// Evaluates input i at the points from what was gathered.
   void evaluate(CeedInt i, CeedInt e) {
@@ -162,12 +93,7 @@ class ElementLoop {
 
   /// Calls the QFunction at the points of element e.
   void call(CeedInt e, void *context) {
-    const int code = function_(context, stride(e), in_.data(), out_.data());
-    if (code == 0) return;
-    const char *name = nullptr;
-    chk(CeedQFunctionGetKernelName(program_.qf, &name));
-    throw Failed{CeedError(CeedQFunctionReturnCeed(program_.qf), CEED_ERROR_BACKEND,
-                           "QFunction '%s' returned %d in element %" CeedInt_FMT "; expected 0", name, code, e)};
+    host::check_returned(program_, function_(context, stride(e), in_.data(), out_.data()), e, 1);
   }
 
   /// Integrates all outputs and adds them to the L-vectors of the sinks (NULL: skipped).
@@ -242,60 +168,28 @@ class ElementLoop {
   std::vector<CeedScalar> x_ref_;
 };
 
-/// Read access to the reference coordinates of the points, if there are any.
-std::unique_ptr<Reader> read_points(const CeedProgram &program) {
-  return program.at_points ? std::make_unique<Reader>(program.points) : nullptr;
-}
-
-/// All elements in turn. A function of its own: among the arrays that come and go, and the handlers of errors, GCC 12 makes
-/// this loop a tenth slower.
-[[gnu::noinline]] void apply_elements(const CeedProgram &program, ElementLoop &loop, const CeedScalar *points,
-                                      const std::vector<std::unique_ptr<Reader>> &sources, void *context,
-                                      const std::vector<CeedScalar *> &sinks) {
+/// All elements in turn. A function of its own: among the arrays that come and go, and the handlers of errors, GCC 12
+/// makes this loop a tenth slower.
+[[gnu::noinline]] void apply_elements(const CeedProgram &program, ElementLoop &loop, const host::ProgramArrays &arrays,
+                                      void *context) {
   for (CeedInt e = 0; e < program.num_elem; e++) {
     if (loop.num_points(e) == 0) continue;
-    loop.set_points(e, points);
-    for (CeedInt s = 0; s < program.num_sources; s++) loop.gather(s, e, sources[s]->data());
+    loop.set_points(e, arrays.points());
+    for (CeedInt s = 0; s < program.num_sources; s++) loop.gather(s, e, arrays.sources()[s]);
     for (CeedInt i = 0; i < program.num_inputs; i++) loop.evaluate(i, e);
     loop.call(e, context);
-    loop.scatter_add(e, sinks);
+    loop.scatter_add(e, arrays.sinks());
   }
 }
 
 int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
   return wall(CeedOperatorReturnCeed(op), [&] {
     ElementLoop loop(*program);
-    if (mode == CEED_APPLY_ADD_ACTIVE) {
-      for (CeedInt t = 0; t < program->num_sinks; t++) {
-        if (!program->sinks[t].is_active) chk(CeedVectorSetValue(program->sinks[t].vec, 0.0));
-      }
-    }
-    const auto points = read_points(*program);
-    std::vector<std::unique_ptr<Reader>> sources;
-    for (CeedInt s = 0; s < program->num_sources; s++) {
-      sources.push_back(std::make_unique<Reader>(program->sources[s].is_active ? in : program->sources[s].vec));
-    }
-    // Several sinks may share a vector, which has one writer at a time.
-    std::vector<std::unique_ptr<Writer>> writers;
-    std::vector<CeedVector> written;
-    std::vector<CeedScalar *> sinks;
-    for (CeedInt t = 0; t < program->num_sinks; t++) {
-      const CeedVector vec = program->sinks[t].is_active ? out : program->sinks[t].vec;
-      const auto found = std::find(written.begin(), written.end(), vec);
-      if (found == written.end()) {
-        written.push_back(vec);
-        writers.push_back(std::make_unique<Writer>(vec));
-        sinks.push_back(writers.back()->data());
-      } else {
-        sinks.push_back(writers[found - written.begin()]->data());
-      }
-    }
+    host::ProgramArrays arrays(*program, in, out, mode);
     ContextData context(program->qf);
-    apply_elements(*program, loop, points ? points->data() : nullptr, sources, context.data(), sinks);
+    apply_elements(*program, loop, arrays, context.data());
     context.release();
-    for (const auto &writer : writers) writer->release();
-    for (const auto &source : sources) source->release();
-    if (points) points->release();
+    arrays.release();
   });
 }
 
@@ -304,11 +198,7 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
                               CeedVector values) {
   return wall(CeedOperatorReturnCeed(op), [&] {
     ElementLoop loop(*program);
-    const auto points = read_points(*program);
-    std::vector<std::unique_ptr<Reader>> sources(program->num_sources);
-    for (CeedInt s = 0; s < program->num_sources; s++) {
-      if (!program->sources[s].is_active) sources[s] = std::make_unique<Reader>(program->sources[s].vec);
-    }
+    host::ProgramArrays arrays(*program);
     Writer assembled(values, Writer::write_only);
     CeedScalar *element_values = assembled.data();
     const CeedInt num_in = program->num_active_in, num_out = program->num_active_out;
@@ -316,15 +206,10 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
     for (CeedInt e = first_elem; e < first_elem + num_elem; e++) {
       const CeedInt Q = loop.num_points(e), stride = loop.stride(e);
       if (Q == 0) continue;
-      loop.set_points(e, points ? points->data() : nullptr);
+      loop.set_points(e, arrays.points());
       for (CeedInt s = 0; s < program->num_sources; s++) {
-        if (sources[s]) loop.gather(s, e, sources[s]->data());
+        if (arrays.sources()[s] != nullptr) loop.gather(s, e, arrays.sources()[s]);
       }
-      const auto for_each_active = [&](const CeedProgramField *fields, CeedInt count, auto &&f) {
-        for (CeedInt i = 0; i < count; i++) {
-          for (CeedInt c = 0; fields[i].first_value >= 0 && c < fields[i].size; c++) f(i, c, fields[i].first_value + c);
-        }
-      };
       for (CeedInt i = 0; i < program->num_inputs; i++) {
         if (program->inputs[i].first_value < 0) loop.evaluate(i, e);
       }
@@ -348,10 +233,7 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
     }
     context.release();
     assembled.release();
-    for (const auto &source : sources) {
-      if (source) source->release();
-    }
-    if (points) points->release();
+    arrays.release();
   });
 }
 

@@ -1,23 +1,18 @@
 #include "vector.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <limits>
-#include <memory>
 #include <new>
+
+#include "../host/memory.hpp"
 
 namespace hg::ref {
 
 namespace {
 
-struct Free {
-  void operator()(CeedScalar *array) const noexcept { std::free(array); }
-};
-
 /// The array of a vector: lent by the user, or owned. A lent array stays in use until it is taken back or replaced by
 /// another.
 struct HostArray {
-  std::unique_ptr<CeedScalar[], Free> owned;
+  host::Array owned;
   CeedScalar *borrowed = nullptr;
 
   CeedScalar *current() const { return borrowed != nullptr ? borrowed : owned.get(); }
@@ -40,12 +35,7 @@ int allocate(CeedVector vec) {
   HostArray &array = array_of(vec);
   if (array.current() != nullptr) return CEED_ERROR_SUCCESS;
   const CeedSize length = length_of(vec);
-  constexpr CeedSize longest = std::numeric_limits<CeedSize>::max() / sizeof(CeedScalar) - CEED_ALIGN;
-  if (length <= longest) {
-    const auto bytes = std::max<std::size_t>(static_cast<std::size_t>(length) * sizeof(CeedScalar), 1);
-    const std::size_t rounded = (bytes + CEED_ALIGN - 1) / CEED_ALIGN * CEED_ALIGN;
-    array.owned.reset(static_cast<CeedScalar *>(std::aligned_alloc(CEED_ALIGN, rounded)));
-  }
+  array.owned = host::allocate_array(static_cast<std::size_t>(length));
   CeedCheck(array.owned, CeedVectorReturnCeed(vec), CEED_ERROR_BACKEND,
             "Out of memory: no room for a CeedVector of length %" CeedSize_FMT, length);
   return CEED_ERROR_SUCCESS;

@@ -11,6 +11,7 @@ using namespace hg::test;
 const char *const required[] = {
     "/cpu/self/ref/serial",
     "/cpu/self/memcheck/serial",
+    "/cpu/self/avx/blocked",
 };
 
 TEST(ExpectedBackends, AreListedAndOpen) {

@@ -69,7 +69,7 @@ TEST_P(AllocationFailures, AreErrorsThatLeakNothing) {
 
 std::vector<Setting> settings() {
   std::vector<Setting> all;
-  for (const char *resource : {"/cpu/self/ref/serial", "/cpu/self/memcheck/serial"}) {
+  for (const char *resource : {"/cpu/self/ref/serial", "/cpu/self/memcheck/serial", "/cpu/self/avx/blocked"}) {
     for (const Scenario &scenario : failure_scenarios()) all.push_back({resource, &scenario});
   }
   return all;

@@ -149,7 +149,7 @@ TEST(CeedInfo, PrintsTheTableOfSupport) {
 TEST(CeedInfo, WritesJson) {
   const TemporaryFolder folder;
   const auto file = folder / "info.json";
-  const Finished checked = ceed_info("--check /cpu/self --cases '*Vector*' --json " + quoted(file));
+  const Finished checked = ceed_info("--check /cpu/self/ref --cases '*Vector*' --json " + quoted(file));
   EXPECT_EQ(checked.code, 0);
   EXPECT_HAS(checked.out, "cases passed");
   const Json json = Json::parse(read_text(file));

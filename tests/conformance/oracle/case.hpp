@@ -110,6 +110,7 @@ struct CaseWishes {
   bool is_oriented = false;  ///< elements have orientations, and come in blocks
   bool mixes_spaces = false;  ///< bases in H^1, H(div) and H(curl) by matrices beside tensor products; not at points
   bool has_matrices = false;  ///< tensor products of random matrices beside those of polynomials; not at points
+  bool has_many_elements = false;  ///< 9 to 20 of them: more than a block of a backend takes, with a rest
   bool is_small = false;      ///< at most 3 elements and 3 points a direction (5 in one dimension)
 };
 Case random_case(Random &random, const CaseWishes &wishes);

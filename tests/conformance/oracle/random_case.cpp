@@ -272,6 +272,7 @@ Case random_case(Random &random, const CaseWishes &wishes) {
   Case c;
   c.dim = wishes.dim > 0 ? wishes.dim : random.integer(1, 3);
   c.num_elem = random.chance(0.2) ? 1 : random.integer(2, wishes.is_small ? 3 : 7);
+  if (wishes.has_many_elements) c.num_elem = random.integer(9, 20);
   c.at_points = wishes.at_points;
   c.quad_mode = random.chance(0.7) ? CEED_GAUSS : CEED_GAUSS_LOBATTO;
   c.Q_1d = random.integer(c.quad_mode == CEED_GAUSS && !c.at_points ? 1 : 2,

@@ -1,0 +1,278 @@
+#include "point_operator.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace hg::avx {
+
+using host::chk, host::ContextData, host::for_each_active, host::Writer;
+
+bool PointOperator::takes(const host::Kernels &kernels, const CeedProgram &program) {
+  bool takes_all = program.at_points;
+  for (CeedInt i = 0; takes_all && i < program.num_spaces; i++) {
+    if (program.spaces[i].rstr != CEED_ELEMRESTRICTION_NONE) {
+      takes_all = host::PointBasis::takes(kernels, program.spaces[i].basis);
+    }
+  }
+  return takes_all;
+}
+
+PointOperator::PointOperator(const host::Kernels &kernels, const CeedProgram &program)
+    : PointOperator(kernels, program, {}) {}
+
+PointOperator PointOperator::followed(const CeedProgram &program) const {
+  return PointOperator(*kernels_, program, bases_);
+}
+
+PointOperator::PointOperator(const host::Kernels &kernels, const CeedProgram &program,
+                             std::vector<host::PointBasis> bases)
+    : kernels_(&kernels), W_(kernels.width), points_epoch_(program.points_epoch), bases_(std::move(bases)) {
+  chk(CeedQFunctionGetUserFunction(program.qf, &function_));
+  chk(CeedQFunctionGetVectorLength(program.qf, &vec_length_));
+  chk(CeedElemRestrictionGetElementMap(program.points_rstr, &points_));
+  dim_ = points_->num_comp;
+  for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
+    most_points_ = std::max(most_points_, block(first, num_elem).stride);
+  });
+  for (CeedInt s = 0; s < program.num_sources; s++) sources_.push_back(make_side(kernels, program.sources[s]));
+  for (CeedInt t = 0; t < program.num_sinks; t++) sinks_.push_back(make_side(kernels, program.sinks[t]));
+  std::size_t num_bases = 0;
+  for (CeedInt i = 0; i < program.num_spaces; i++) {
+    const bool is_for_weights = program.spaces[i].rstr == CEED_ELEMRESTRICTION_NONE;
+    basis_of_space_.push_back(is_for_weights ? -1 : static_cast<CeedInt>(num_bases));
+    if (!is_for_weights && num_bases++ == bases_.size()) bases_.emplace_back(kernels, program.spaces[i].basis);
+  }
+  place_inputs(program);
+  place_outputs(program);
+  std::size_t coefficients = 0, work = 0;
+  for (const auto &basis : bases_) {
+    coefficients = std::max(coefficients, basis.num_coefficients() * W_);
+    work = std::max(work, basis.work_size());
+  }
+  for (const auto *sides : {&sources_, &sinks_}) {
+    for (const Side &side : *sides) work = std::max(work, side.nodes ? side.nodes->work_size() : 0);
+  }
+  x_ref_ = arena_.add(static_cast<std::size_t>(dim_) * most_points_);
+  coefficients_ = arena_.add(coefficients);
+  sums_ = arena_.add(coefficients);
+  work_ = arena_.add(work);
+  arena_.allocate();
+  for (CeedInt i = 0; i < program.num_inputs; i++) {
+    in_.push_back(arena_[input_arrays_[i]]);
+    input_sizes_.push_back(program.inputs[i].size);
+    if (program.inputs[i].eval_mode == CEED_EVAL_WEIGHT) std::fill_n(arena_[input_arrays_[i]], most_points_, 1.0);
+  }
+  for (const int array : output_arrays_) out_.push_back(arena_[array]);
+}
+
+PointOperator::Side PointOperator::make_side(const host::Kernels &kernels, const CeedProgramSide &side) const {
+  Side made{.points = nullptr, .nodes = nullptr, .block = -1, .num_comp = side.num_comp, .is_active = side.is_active};
+  if (side.is_points) {
+    chk(CeedElemRestrictionGetElementMap(side.rstr, &made.points));
+  } else {
+    made.nodes = std::make_unique<host::BlockMap>(kernels, side.rstr);
+  }
+  return made;
+}
+
+/// Room for a side's nodes; false where there was.
+bool PointOperator::add_nodes(Side &side) {
+  if (side.block >= 0) return false;
+  side.block = arena_.add(static_cast<std::size_t>(side.nodes->num_nodes()) * side.num_comp * W_);
+  return true;
+}
+
+void PointOperator::place_inputs(const CeedProgram &program) {
+  for (CeedInt i = 0; i < program.num_inputs; i++) {
+    const CeedProgramField &field = program.inputs[i];
+    input_arrays_.push_back(arena_.add(static_cast<std::size_t>(field.size) * most_points_));
+    if (field.eval_mode == CEED_EVAL_NONE) {
+      copies_in_.push_back({field.side, input_arrays_.back()});
+      const bool is_larger = largest_source_ < 0 || sources_[field.side].num_comp > sources_[largest_source_].num_comp;
+      if (is_larger) largest_source_ = field.side;
+    } else if (field.eval_mode != CEED_EVAL_WEIGHT) {
+      evaluation_of(evaluations_, field, false).array_of(field) = input_arrays_.back();
+      add_nodes(sources_[field.side]);
+    }
+  }
+}
+
+void PointOperator::place_outputs(const CeedProgram &program) {
+  for (CeedInt o = 0; o < program.num_outputs; o++) {
+    const CeedProgramField &field = program.outputs[o];
+    output_arrays_.push_back(arena_.add(static_cast<std::size_t>(field.size) * most_points_));
+    if (field.eval_mode == CEED_EVAL_NONE) {
+      copies_out_.push_back({field.side, output_arrays_.back()});
+    } else {
+      evaluation_of(integrations_, field, false).array_of(field) = output_arrays_.back();
+      if (add_nodes(sinks_[field.side])) {
+        const Side &sink = sinks_[field.side];
+        const std::size_t size = static_cast<std::size_t>(sink.nodes->num_nodes()) * sink.num_comp * W_;
+        results_.push_back({field.side, sink.block, arena_.add(size)});
+      }
+    }
+  }
+}
+
+PointOperator::Block PointOperator::block(CeedInt first, CeedInt num_elem) const {
+  const CeedInt count = points_->offsets[first + num_elem] - points_->offsets[first];
+  return {first, num_elem, count, (count + vec_length_ - 1) / vec_length_ * vec_length_};
+}
+
+/// Where the evaluation of a block begins: at its first element, without points yet.
+host::PointEvaluation PointOperator::evaluation(const Block &block, const host::PointBasis &basis,
+                                                host::Ahead &ahead) const {
+  return {basis.dim(), basis.K(), basis.num_comp(), 0, arena_[x_ref_], block.stride, &ahead};
+}
+
+/// What an L-vector at points holds for the next block, taken to have as many points as this one and to lie together,
+/// as it does where points are sorted by element. Elsewhere the lines that are asked for are not the right ones.
+host::Ahead PointOperator::ask_for(const Block &block, const CeedElementMap &map, const CeedScalar *l) const {
+  const CeedInt next = block.first + W_;
+  if (next >= map.num_elem || num_points(next) == 0) return {};
+  constexpr CeedSize line = host::Ahead::line / static_cast<CeedSize>(sizeof(CeedScalar));
+  CeedSize steps = 0;
+  for (CeedInt lane = 0; lane < block.num_elem; lane++) steps += (num_points(block.first + lane) + W_ - 1) / W_;
+  const CeedSize lines = static_cast<CeedSize>(block.num_points) * map.num_comp / line + 1;
+  return {.next = reinterpret_cast<std::uintptr_t>(l) +
+                  static_cast<CeedSize>(places(map, next)[0]) * map.num_comp * sizeof(CeedScalar),
+          .lines = static_cast<CeedInt>((lines + steps - 1) / steps)};
+}
+
+namespace {
+
+/// Numbers from a point on; NULL stays NULL.
+template <typename Scalar>
+Scalar *from_point(Scalar *values, CeedInt point) {
+  return values == nullptr ? nullptr : values + point;
+}
+
+}  // namespace
+
+/// The QFunction's inputs for a block of elements; sources that are NULL are left out.
+void PointOperator::read(const Block &block, const CeedScalar *x_ref, const std::vector<const CeedScalar *> &sources) {
+  CeedScalar *work = arena_[work_], *coefficients = arena_[coefficients_];
+  kernels_->gather_points(block.num_points, dim_, places(*points_, block.first), x_ref, points_->l_size, block.stride,
+                          arena_[x_ref_]);
+  for (std::size_t s = 0; s < sources_.size(); s++) {
+    if (sources[s] == nullptr || sources_[s].block < 0) continue;
+    sources_[s].nodes->gather(block.first, block.num_elem, sources[s], arena_[sources_[s].block], work);
+  }
+  host::Ahead ahead = ask_for(block, *points_, x_ref);
+  for (const Evaluation &e : evaluations_) {
+    if (sources[e.side] == nullptr) continue;
+    const host::PointBasis &basis = this->basis(e.space);
+    basis.to_coefficients(arena_[sources_[e.side].block], coefficients, work);
+    host::PointEvaluation at = evaluation(block, basis, ahead);
+    CeedInt point = 0;
+    for (CeedInt lane = 0; lane < block.num_elem; lane++, point += at.num_points, at.x_ref += at.num_points) {
+      at.num_points = num_points(block.first + lane);
+      basis.evaluate[e.derivative >= 0](at, coefficients + lane, from_point(arena_[e.interp], point),
+                                        from_point(arena_[e.derivative], point));
+    }
+    ahead = {};
+  }
+  for (const Copy &copy : copies_in_) {
+    if (sources[copy.side] == nullptr) continue;
+    const Side &side = sources_[copy.side];
+    kernels_->gather_points(block.num_points, side.num_comp, places(*side.points, block.first), sources[copy.side],
+                            side.points->l_size, block.stride, arena_[copy.array]);
+  }
+  for (std::size_t i = 0; i < input_arrays_.size(); i++) pad(block, input_sizes_[i], arena_[input_arrays_[i]]);
+}
+
+/// Fills a component's points up to the stride with the last one, which is a valid one.
+void PointOperator::pad(const Block &block, CeedInt size, CeedScalar *values) const {
+  for (CeedInt c = 0; c < size && block.stride > block.num_points; c++) {
+    CeedScalar *component = values + static_cast<std::size_t>(c) * block.stride;
+    std::fill(component + block.num_points, component + block.stride, component[block.num_points - 1]);
+  }
+}
+
+/// Integrates the QFunction's outputs and adds them to the L-vectors of the sinks.
+void PointOperator::write(const Block &block, const std::vector<const CeedScalar *> &sources,
+                          const std::vector<CeedScalar *> &sinks) {
+  CeedScalar *work = arena_[work_], *coefficients = arena_[coefficients_];
+  host::Ahead ahead;
+  if (largest_source_ >= 0) ahead = ask_for(block, *sources_[largest_source_].points, sources[largest_source_]);
+  for (const Evaluation &e : integrations_) {
+    const host::PointBasis &basis = this->basis(e.space);
+    host::PointEvaluation at = evaluation(block, basis, ahead);
+    if (block.num_elem < W_) std::fill_n(coefficients, basis.num_coefficients() * W_, 0.0);
+    CeedInt point = 0;
+    for (CeedInt lane = 0; lane < block.num_elem; lane++, point += at.num_points, at.x_ref += at.num_points) {
+      at.num_points = num_points(block.first + lane);
+      basis.integrate[e.derivative >= 0](at, from_point(arena_[e.interp], point),
+                                         from_point(arena_[e.derivative], point), arena_[sums_], coefficients + lane);
+    }
+    ahead = {};
+    basis.from_coefficients(coefficients, arena_[sinks_[e.side].block], e.add, work);
+  }
+  for (const Result &result : results_) {
+    sinks_[result.side].nodes->to_rows(block.first, block.num_elem, arena_[result.array], arena_[result.rows], work);
+  }
+  for_lanes(results_.size(), block.num_elem, [&](CeedInt lane, CeedInt end) {
+    for (const Result &result : results_) {
+      sinks_[result.side].nodes->scatter_add(block.first, block.num_elem, lane, end, arena_[result.rows],
+                                             sinks[result.side]);
+    }
+  });
+  for (const Copy &copy : copies_out_) {
+    const Side &side = sinks_[copy.side];
+    kernels_->scatter_add_points(block.num_points, side.num_comp, places(*side.points, block.first), arena_[copy.array],
+                                 block.stride, sinks[copy.side]);
+  }
+}
+
+void PointOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+  host::ProgramArrays arrays(program, in, out, mode);
+  ContextData context(program.qf);
+  for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
+    const Block block = this->block(first, num_elem);
+    if (block.num_points == 0) return;
+    read(block, arrays.points(), arrays.sources());
+    call(program, block, context.data());
+    write(block, arrays.sources(), arrays.sinks());
+  });
+  context.release();
+  arrays.release();
+}
+
+void PointOperator::call(const CeedProgram &program, const Block &block, void *context) {
+  host::check_returned(program, function_(context, block.stride, in_.data(), out_.data()), block.first, block.num_elem);
+}
+
+/// Column by column: the QFunction of a unit value of each active input, all others zero.
+void PointOperator::linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem,
+                                              CeedVector values) {
+  host::ProgramArrays arrays(program);
+  Writer assembled(values, Writer::write_only);
+  ContextData context(program.qf);
+  const CeedInt num_out = program.num_active_out;
+  const CeedSize of_point = static_cast<CeedSize>(program.num_active_in) * num_out;
+  CeedScalar *to = assembled.data();
+  for_blocks(first_elem, first_elem + num_elem, W_, [&](CeedInt first, CeedInt lanes) {
+    const Block block = this->block(first, lanes);
+    if (block.num_points == 0) return;
+    read(block, arrays.points(), arrays.sources());
+    const auto fill_input = [&](CeedInt i, CeedInt c, CeedScalar value) {
+      std::fill_n(arena_[input_arrays_[i]] + static_cast<std::size_t>(c) * block.stride, block.stride, value);
+    };
+    for_each_active(program.inputs, program.num_inputs, [&](CeedInt i, CeedInt c, CeedInt) { fill_input(i, c, 0); });
+    for_each_active(program.inputs, program.num_inputs, [&](CeedInt i, CeedInt c, CeedInt column) {
+      fill_input(i, c, 1);
+      call(program, block, context.data());
+      fill_input(i, c, 0);
+      for_each_active(program.outputs, program.num_outputs, [&](CeedInt o, CeedInt d, CeedInt row) {
+        const CeedScalar *from = arena_[output_arrays_[o]] + static_cast<std::size_t>(d) * block.stride;
+        for (CeedInt p = 0; p < block.num_points; p++) to[p * of_point + column * num_out + row] = from[p];
+      });
+    });
+    to += block.num_points * of_point;
+  });
+  context.release();
+  assembled.release();
+  arrays.release();
+}
+
+}  // namespace hg::avx

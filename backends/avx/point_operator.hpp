@@ -1,0 +1,96 @@
+/// @file
+/// An operator at points of the elements' own, W elements and W points at a time.
+#pragma once
+
+#include <ceed/plugin.h>
+
+#include <memory>
+#include <vector>
+
+#include "../host/access.hpp"
+#include "../host/block_map.hpp"
+#include "../host/point_basis.hpp"
+#include "fields.hpp"
+
+namespace hg::avx {
+
+/// v = Σ_e R_e^T B^T D(B R_e u) with B at points: nodes are gathered and turned into Chebyshev coefficients for W
+/// elements side by side; each element's points are evaluated W at a time; the QFunction is called for the points of
+/// all W elements at once, each point once. Elements may have any number of points, none too. Made from the operator's
+/// program, and again when points are set again: that takes a look at the number of points of each element and
+/// allocates what a block needs. One thread at a time.
+///
+/// Memory: W numbers for each node and coefficient of a field, and one for each point of W elements and value of a
+/// field. Floor of an application, bytes for each point: 8 dim (reference coordinates), 4 (its place), 8 for each
+/// number stored there; multiplications see evaluate_points().
+class PointOperator {
+ public:
+  /// Whether a program can be taken: at points, in bases that the kernels take, with the other fields at points.
+  static bool takes(const host::Kernels &kernels, const CeedProgram &program);
+  PointOperator(const host::Kernels &kernels, const CeedProgram &program);
+
+  /// The same operator for points that were set again: bases are kept.
+  PointOperator followed(const CeedProgram &program) const;
+  /// CeedProgram::points_epoch of the points that it was made for
+  CeedSize points_epoch() const { return points_epoch_; }
+  /// As CeedOperatorOps::apply_add().
+  void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  /// As CeedOperatorOps::linear_assemble_qfunction().
+  void linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem, CeedVector values);
+
+ private:
+  /// A side at points has a list of its points, the others a map of their nodes.
+  struct Side {
+    const CeedElementMap *points = nullptr;
+    std::unique_ptr<host::BlockMap> nodes;
+    int block = -1;  ///< its nodes' values
+    CeedInt num_comp;
+    bool is_active;
+  };
+  /// The points of a block of elements.
+  struct Block {
+    CeedInt first, num_elem;
+    CeedInt num_points;  ///< of all its elements
+    CeedInt stride;      ///< the same, up to a multiple of the QFunction's vector length
+  };
+
+  PointOperator(const host::Kernels &kernels, const CeedProgram &program, std::vector<host::PointBasis> bases);
+  Side make_side(const host::Kernels &kernels, const CeedProgramSide &side) const;
+  bool add_nodes(Side &side);
+  void place_inputs(const CeedProgram &program);
+  void place_outputs(const CeedProgram &program);
+  Block block(CeedInt first, CeedInt num_elem) const;
+  void call(const CeedProgram &program, const Block &block, void *context);
+  CeedInt num_points(CeedInt e) const { return points_->offsets[e + 1] - points_->offsets[e]; }
+  const CeedInt *places(const CeedElementMap &map, CeedInt e) const { return map.offsets + map.offsets[e]; }
+  const host::PointBasis &basis(CeedInt space) const { return bases_[basis_of_space_[space]]; }
+  host::PointEvaluation evaluation(const Block &block, const host::PointBasis &basis, host::Ahead &ahead) const;
+  host::Ahead ask_for(const Block &block, const CeedElementMap &map, const CeedScalar *l) const;
+  void read(const Block &block, const CeedScalar *x_ref, const std::vector<const CeedScalar *> &sources);
+  void write(const Block &block, const std::vector<const CeedScalar *> &sources,
+             const std::vector<CeedScalar *> &sinks);
+  void pad(const Block &block, CeedInt size, CeedScalar *values) const;
+
+  const host::Kernels *kernels_;
+  CeedInt W_, vec_length_ = 1;
+  CeedSize points_epoch_;
+  CeedQFunctionUser function_ = nullptr;
+  const CeedElementMap *points_ = nullptr;
+  CeedInt dim_ = 0;
+  CeedInt most_points_ = 0;  ///< largest stride of a block
+  std::vector<Side> sources_, sinks_;
+  std::vector<host::PointBasis> bases_;
+  std::vector<CeedInt> basis_of_space_;  ///< index in bases_; -1 for that of weights
+  std::vector<Evaluation> evaluations_, integrations_;
+  std::vector<Copy> copies_in_, copies_out_;  ///< at points
+  std::vector<Result> results_;               ///< nodes of sinks
+  std::vector<int> input_arrays_, output_arrays_;
+  std::vector<CeedInt> input_sizes_;
+  CeedInt largest_source_ = -1;  ///< of those at points
+  int x_ref_ = -1, coefficients_ = -1, sums_ = -1, work_ = -1;
+  Arena arena_;
+  std::vector<const CeedScalar *> in_;
+  std::vector<CeedScalar *> out_;
+};
+
+}  // namespace hg::avx

@@ -1,0 +1,168 @@
+/// @file
+/// What backends that work on the host share beside kernels: errors on their way out of C++, and arrays for a scope.
+#pragma once
+
+#include <ceed/plugin.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace hg::host {
+
+/// What the operator's C calls return on the way out of C++ code; the error has been reported.
+struct Failed {
+  int code;
+};
+
+inline void chk(int code) {
+  if (code != CEED_ERROR_SUCCESS) throw Failed{code};
+}
+
+/// Runs `f` for a C function; what it throws becomes a code.
+template <typename F>
+int wall(Ceed ceed, F &&f) {
+  try {
+    f();
+    return CEED_ERROR_SUCCESS;
+  } catch (const Failed &failed) {
+    return failed.code > 0 ? CEED_ERROR_BACKEND : failed.code;
+  } catch (const std::bad_alloc &) {
+    return CeedError(ceed, CEED_ERROR_BACKEND, "Out of memory");
+  } catch (const std::exception &error) {
+    return CeedError(ceed, CEED_ERROR_BACKEND, "%s", error.what());
+  }
+}
+
+/// A host array for a scope. release() ends it before, where an error still counts.
+class Reader {
+ public:
+  explicit Reader(CeedVector vec) : vec_(vec) { chk(CeedVectorGetArrayRead(vec, CEED_MEM_HOST, &array_)); }
+  Reader(const Reader &) = delete;
+  Reader &operator=(const Reader &) = delete;
+  ~Reader() {
+    if (vec_ != nullptr) CeedVectorRestoreArrayRead(vec_, &array_);
+  }
+  void release() { chk(CeedVectorRestoreArrayRead(std::exchange(vec_, nullptr), &array_)); }
+  const CeedScalar *data() const { return array_; }
+
+ private:
+  CeedVector vec_;
+  const CeedScalar *array_ = nullptr;
+};
+
+/// The same to write to.
+class Writer {
+ public:
+  enum Mode { read_write, write_only };
+  explicit Writer(CeedVector vec, Mode mode = read_write) : vec_(vec) {
+    chk(mode == read_write ? CeedVectorGetArray(vec, CEED_MEM_HOST, &array_)
+                           : CeedVectorGetArrayWrite(vec, CEED_MEM_HOST, &array_));
+  }
+  Writer(const Writer &) = delete;
+  Writer &operator=(const Writer &) = delete;
+  ~Writer() {
+    if (vec_ != nullptr) CeedVectorRestoreArray(vec_, &array_);
+  }
+  void release() { chk(CeedVectorRestoreArray(std::exchange(vec_, nullptr), &array_)); }
+  CeedScalar *data() const { return array_; }
+
+ private:
+  CeedVector vec_;
+  CeedScalar *array_ = nullptr;
+};
+
+/// The context's data for a scope.
+class ContextData {
+ public:
+  explicit ContextData(CeedQFunction qf) : qf_(qf) { chk(CeedQFunctionGetContextData(qf, CEED_MEM_HOST, &data_)); }
+  ContextData(const ContextData &) = delete;
+  ContextData &operator=(const ContextData &) = delete;
+  ~ContextData() {
+    if (qf_ != nullptr) CeedQFunctionRestoreContextData(qf_, &data_);
+  }
+  void release() { chk(CeedQFunctionRestoreContextData(std::exchange(qf_, nullptr), &data_)); }
+  void *data() const { return data_; }
+
+ private:
+  CeedQFunction qf_;
+  void *data_ = nullptr;
+};
+
+/// The arrays that an operator works on, for a scope.
+class ProgramArrays {
+ public:
+  /// Those that are read for an assembly: passive sources, and the points.
+  explicit ProgramArrays(const CeedProgram &program) { read(program, nullptr); }
+  /// As CeedOperatorOps::apply_add() gets its vectors. Passive outputs that are written, not added to, begin with
+  /// zeros.
+  ProgramArrays(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+    if (mode == CEED_APPLY_ADD_ACTIVE) {
+      for (CeedInt t = 0; t < program.num_sinks; t++) {
+        if (!program.sinks[t].is_active) chk(CeedVectorSetValue(program.sinks[t].vec, 0.0));
+      }
+    }
+    read(program, in);
+    // Several sinks may share a vector, which has one writer at a time.
+    std::vector<CeedVector> written;
+    for (CeedInt t = 0; t < program.num_sinks; t++) {
+      const CeedVector vec = program.sinks[t].is_active ? out : program.sinks[t].vec;
+      const auto found = std::find(written.begin(), written.end(), vec);
+      const auto place = static_cast<std::size_t>(found - written.begin());
+      if (found == written.end()) {
+        written.push_back(vec);
+        writers_.push_back(std::make_unique<Writer>(vec));
+      }
+      sinks_.push_back(writers_[place]->data());
+    }
+  }
+  /// L-vectors of the program's sources (NULL: it is not read), of its sinks, and of the points' coordinates (NULL at
+  /// quadrature points).
+  const std::vector<const CeedScalar *> &sources() const { return sources_; }
+  const std::vector<CeedScalar *> &sinks() const { return sinks_; }
+  const CeedScalar *points() const { return points_ ? points_->data() : nullptr; }
+  void release() {
+    for (const auto &writer : writers_) writer->release();
+    for (const auto &reader : readers_) reader->release();
+    if (points_) points_->release();
+  }
+
+ private:
+  void read(const CeedProgram &program, CeedVector in) {
+    if (program.at_points) points_ = std::make_unique<Reader>(program.points);
+    for (CeedInt s = 0; s < program.num_sources; s++) {
+      const CeedVector vec = program.sources[s].is_active ? in : program.sources[s].vec;
+      if (vec != nullptr) readers_.push_back(std::make_unique<Reader>(vec));
+      sources_.push_back(vec != nullptr ? readers_.back()->data() : nullptr);
+    }
+  }
+
+  std::unique_ptr<Reader> points_;
+  std::vector<std::unique_ptr<Reader>> readers_;
+  std::vector<std::unique_ptr<Writer>> writers_;
+  std::vector<const CeedScalar *> sources_;
+  std::vector<CeedScalar *> sinks_;
+};
+
+/// Calls visit(field, component, active value) for all active values of fields.
+template <typename Visit>
+void for_each_active(const CeedProgramField *fields, CeedInt count, Visit &&visit) {
+  for (CeedInt i = 0; i < count; i++) {
+    for (CeedInt c = 0; fields[i].first_value >= 0 && c < fields[i].size; c++) visit(i, c, fields[i].first_value + c);
+  }
+}
+
+/// Throws where the QFunction of a program returned another code than 0 for the elements from `first` on.
+inline void check_returned(const CeedProgram &program, int code, CeedInt first, CeedInt num_elem) {
+  if (code == 0) return;
+  const char *name = nullptr;
+  chk(CeedQFunctionGetKernelName(program.qf, &name));
+  throw Failed{CeedError(CeedQFunctionReturnCeed(program.qf), CEED_ERROR_BACKEND,
+                         "QFunction '%s' returned %d in the elements %" CeedInt_FMT " to %" CeedInt_FMT "; expected 0",
+                         name, code, first, first + num_elem - 1)};
+}
+
+}  // namespace hg::host

@@ -1,0 +1,262 @@
+#include "block_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "access.hpp"
+
+namespace hg::host {
+
+namespace {
+
+/// Symmetry up to rounding: points and weights are computed.
+Symmetry symmetry_of(const std::vector<CeedScalar> &B, CeedInt M, CeedInt N) {
+  CeedScalar largest = 0, even = 0, odd = 0;
+  for (CeedInt m = 0; m < M; m++) {
+    for (CeedInt n = 0; n < N; n++) {
+      const CeedScalar here = B[m * N + n], there = B[(M - 1 - m) * N + N - 1 - n];
+      largest = std::max(largest, std::abs(here));
+      even = std::max(even, std::abs(here - there));
+      odd = std::max(odd, std::abs(here + there));
+    }
+  }
+  const CeedScalar tolerance = 1e-14 * largest;
+  return even <= tolerance ? Symmetry::even : odd <= tolerance ? Symmetry::odd : Symmetry::none;
+}
+
+/// The coefficients of even-odd kernels, see Contraction.
+std::vector<CeedScalar> even_odd(const std::vector<CeedScalar> &B, CeedInt M, CeedInt N) {
+  std::vector<CeedScalar> coefficients;
+  for (CeedInt m = 0; m < (M + 1) / 2; m++) {
+    const CeedScalar *row = &B[m * N];
+    for (CeedInt n = 0; n < (N + 1) / 2; n++) {
+      coefficients.push_back(n == N - 1 - n ? row[n] : 0.5 * (row[n] + row[N - 1 - n]));
+    }
+    for (CeedInt n = 0; n < N / 2; n++) coefficients.push_back(0.5 * (row[n] - row[N - 1 - n]));
+  }
+  return coefficients;
+}
+
+/// D with D B = G, for B and G Q by P; empty where there is none to working precision. With B = W R, the columns of W
+/// orthonormal: D = G R^-1 W^T. (The core's pseudoinverse tells the user of dependent columns, which are no error
+/// here.)
+std::vector<CeedScalar> derivative_at_points(const CeedScalar *B, const CeedScalar *G, CeedInt Q, CeedInt P) {
+  if (Q < P) return {};
+  std::vector<CeedScalar> W(B, B + static_cast<std::size_t>(Q) * P), X(G, G + static_cast<std::size_t>(Q) * P);
+  const auto dot = [&](CeedInt j, CeedInt k) {
+    CeedScalar sum = 0;
+    for (CeedInt q = 0; q < Q; q++) sum += W[q * P + j] * W[q * P + k];
+    return sum;
+  };
+  // Column operations that make the columns of W orthonormal turn G into X = G R^-1.
+  for (CeedInt k = 0; k < P; k++) {
+    const CeedScalar before = std::sqrt(dot(k, k));
+    for (CeedInt pass = 0; pass < 2; pass++) {
+      for (CeedInt j = 0; j < k; j++) {
+        const CeedScalar r = dot(j, k);
+        for (CeedInt q = 0; q < Q; q++) {
+          W[q * P + k] -= r * W[q * P + j];
+          X[q * P + k] -= r * X[q * P + j];
+        }
+      }
+    }
+    const CeedScalar norm = std::sqrt(dot(k, k));
+    if (!(norm > 1e-10 * before)) return {};
+    for (CeedInt q = 0; q < Q; q++) {
+      W[q * P + k] /= norm;
+      X[q * P + k] /= norm;
+    }
+  }
+  std::vector<CeedScalar> D(static_cast<std::size_t>(Q) * Q);
+  CeedScalar largest = 0, error = 0;
+  for (CeedInt i = 0; i < Q; i++) {
+    for (CeedInt j = 0; j < Q; j++) {
+      for (CeedInt k = 0; k < P; k++) D[i * Q + j] += X[i * P + k] * W[j * P + k];
+    }
+    for (CeedInt k = 0; k < P; k++) {
+      CeedScalar product = 0;
+      for (CeedInt j = 0; j < Q; j++) product += D[i * Q + j] * B[j * P + k];
+      largest = std::max(largest, std::abs(G[i * P + k]));
+      error = std::max(error, std::abs(product - G[i * P + k]));
+    }
+  }
+  return error <= 1e-14 * Q * largest ? D : std::vector<CeedScalar>();
+}
+
+}  // namespace
+
+Factor::Direction Factor::prepare(const Kernels &kernels, const std::vector<CeedScalar> &B, CeedInt M, CeedInt N) {
+  const Symmetry symmetry = symmetry_of(B, M, N);
+  if (symmetry != Symmetry::none && kernels.contraction(M, N, symmetry, false) != nullptr) {
+    return {even_odd(B, M, N), {kernels.contraction(M, N, symmetry, false), kernels.contraction(M, N, symmetry, true)}};
+  }
+  return {B, {kernels.contraction(M, N, Symmetry::none, false), kernels.contraction(M, N, Symmetry::none, true)}};
+}
+
+Factor::Factor(const Kernels &kernels, const CeedScalar *B, CeedInt M, CeedInt N) : M_(M), N_(N) {
+  const std::vector<CeedScalar> matrix(B, B + static_cast<std::size_t>(M) * N);
+  std::vector<CeedScalar> transpose(matrix.size());
+  for (CeedInt m = 0; m < M; m++) {
+    for (CeedInt n = 0; n < N; n++) transpose[n * M + m] = matrix[m * N + n];
+  }
+  forward_ = prepare(kernels, matrix, M, N);
+  back_ = prepare(kernels, transpose, N, M);
+}
+
+BlockBasis::BlockBasis(const Kernels &kernels, CeedBasis basis) : width_(kernels.width) {
+  bool is_tensor = false;
+  chk(CeedBasisIsTensor(basis, &is_tensor));
+  chk(CeedBasisGetNumComponents(basis, &num_comp_));
+  if (is_tensor) {
+    create_tensor(kernels, basis);
+  } else {
+    create_full(kernels, basis);
+  }
+  work_stride_ = static_cast<std::size_t>(power(std::max(P_, Q_), num_directions_)) * num_comp_ * width_;
+}
+
+void BlockBasis::create_tensor(const Kernels &kernels, CeedBasis basis) {
+  const CeedScalar *interp, *grad, *weight;
+  chk(CeedBasisGetDimension(basis, &num_directions_));
+  chk(CeedBasisGetNumNodes1D(basis, &P_));
+  chk(CeedBasisGetNumQuadraturePoints1D(basis, &Q_));
+  chk(CeedBasisGetInterp1D(basis, &interp));
+  chk(CeedBasisGetGrad1D(basis, &grad));
+  chk(CeedBasisGetQWeights(basis, &weight));
+  bool is_identity = P_ == Q_;
+  for (CeedInt i = 0; i < Q_ && is_identity; i++) {
+    for (CeedInt j = 0; j < P_; j++) is_identity = is_identity && interp[i * P_ + j] == (i == j ? 1.0 : 0.0);
+  }
+  const auto D = is_identity ? std::vector<CeedScalar>(grad, grad + static_cast<std::size_t>(Q_) * P_)
+                             : derivative_at_points(interp, grad, Q_, P_);
+  route_ = is_identity ? Route::identity : !D.empty() ? Route::collocated : Route::chains;
+  interp_1d_ = Factor(kernels, interp, Q_, P_);
+  grad_1d_ = D.empty() ? Factor(kernels, grad, Q_, P_) : Factor(kernels, D.data(), Q_, Q_);
+  weights_ = {1.0};
+  for (CeedInt d = 0; d < num_directions_; d++) {
+    std::vector<CeedScalar> product;
+    for (CeedInt q = 0; q < Q_; q++) {
+      for (const CeedScalar w : weights_) product.push_back(w * weight[q]);
+    }
+    weights_ = std::move(product);
+  }
+}
+
+void BlockBasis::create_full(const Kernels &kernels, CeedBasis basis) {
+  const CeedScalar *matrices, *weight;
+  chk(CeedBasisGetNumNodes(basis, &P_));
+  chk(CeedBasisGetNumQuadraturePoints(basis, &Q_));
+  const std::size_t size = static_cast<std::size_t>(P_) * Q_;
+  const auto add = [&](CeedEvalMode mode, std::vector<Factor> &factors) {
+    CeedInt count = 0;
+    chk(CeedBasisGetNumQuadratureComponents(basis, mode, &count));
+    chk(CeedOperatorGetBasisPointer(basis, mode, nullptr, &matrices));
+    for (CeedInt g = 0; g < count; g++) factors.emplace_back(kernels, matrices + g * size, Q_, P_);
+  };
+  add(CEED_EVAL_INTERP, interp_);
+  CeedEvalMode derivative = CEED_EVAL_NONE;
+  chk(CeedBasisGetDerivativeMode(basis, &derivative));
+  if (derivative != CEED_EVAL_NONE) add(derivative, derivative_);
+  chk(CeedBasisGetQWeights(basis, &weight));
+  weights_.assign(weight, weight + Q_);
+}
+
+// values(i, j, k) = Σ A_2(k, n) A_1(j, m) A_0(i, l) u(l, m, n), A_d the derivative where d is derived_direction.
+void BlockBasis::to_points(const CeedScalar *u, CeedScalar *values, CeedInt derived_direction, CeedScalar *work,
+                           Ahead &ahead) const {
+  const CeedInt last = num_directions_ - 1;
+  for (CeedInt d = 0; d <= last; d++) {
+    CeedScalar *out = d == last ? values : work + (d % 2) * work_stride_;
+    (d == derived_direction ? grad_1d_ : interp_1d_)
+        .apply(num_comp_ * power(P_, last - d), power(Q_, d), u, out, ahead);
+    u = out;
+  }
+}
+
+void BlockBasis::to_nodes(const CeedScalar *values, CeedScalar *u, CeedInt derived_direction, bool add,
+                          CeedScalar *work, Ahead &ahead) const {
+  const CeedInt last = num_directions_ - 1;
+  for (CeedInt d = 0; d <= last; d++) {
+    CeedScalar *out = d == last ? u : work + (d % 2) * work_stride_;
+    (d == derived_direction ? grad_1d_ : interp_1d_)
+        .apply_transpose(num_comp_ * power(Q_, last - d), power(P_, d), values, out, ahead, add && d == last);
+    values = out;
+  }
+}
+
+void BlockBasis::evaluate(const CeedScalar *u, CeedScalar *interp, CeedScalar *derivative, CeedScalar *work,
+                          Ahead &ahead) const {
+  const CeedInt dim = num_directions_;
+  const std::size_t size = static_cast<std::size_t>(num_comp_) * num_points() * width_;
+  switch (route_) {
+    case Route::identity:
+      if (interp != nullptr) std::copy_n(u, size, interp);
+      break;
+    case Route::collocated: {
+      CeedScalar *values = interp != nullptr ? interp : work + 2 * work_stride_;
+      to_points(u, values, -1, work, ahead);
+      u = values;
+      break;
+    }
+    case Route::chains:
+      if (interp != nullptr) to_points(u, interp, -1, work, ahead);
+      for (CeedInt g = 0; derivative != nullptr && g < dim; g++) to_points(u, derivative + g * size, g, work, ahead);
+      return;
+    case Route::full:
+      for (std::size_t g = 0; interp != nullptr && g < interp_.size(); g++) {
+        interp_[g].apply(num_comp_, 1, u, interp + g * size, ahead);
+      }
+      for (std::size_t g = 0; derivative != nullptr && g < derivative_.size(); g++) {
+        derivative_[g].apply(num_comp_, 1, u, derivative + g * size, ahead);
+      }
+      return;
+  }
+  for (CeedInt g = 0; derivative != nullptr && g < dim; g++) {
+    grad_1d_.apply(num_comp_ * power(Q_, dim - 1 - g), power(Q_, g), u, derivative + g * size, ahead);
+  }
+}
+
+void BlockBasis::integrate(CeedScalar *interp, const CeedScalar *derivative, CeedScalar *u, bool add, CeedScalar *work,
+                           Ahead &ahead) const {
+  const CeedInt dim = num_directions_;
+  const std::size_t size = static_cast<std::size_t>(num_comp_) * num_points() * width_;
+  const auto add_derivatives = [&](CeedScalar *values, bool add_first) {
+    for (CeedInt g = 0; derivative != nullptr && g < dim; g++) {
+      grad_1d_.apply_transpose(num_comp_ * power(Q_, dim - 1 - g), power(Q_, g), derivative + g * size, values, ahead,
+                               add_first || g > 0);
+    }
+  };
+  switch (route_) {
+    case Route::identity:
+      if (interp != nullptr && add) {
+        for (std::size_t i = 0; i < size; i++) u[i] += interp[i];
+      } else if (interp != nullptr) {
+        std::copy_n(interp, size, u);
+      }
+      add_derivatives(u, add || interp != nullptr);
+      break;
+    case Route::collocated: {
+      CeedScalar *values = interp != nullptr ? interp : work + 2 * work_stride_;
+      add_derivatives(values, interp != nullptr);
+      to_nodes(values, u, -1, add, work, ahead);
+      break;
+    }
+    case Route::chains:
+      if (interp != nullptr) to_nodes(interp, u, -1, add, work, ahead);
+      for (CeedInt g = 0; derivative != nullptr && g < dim; g++) {
+        to_nodes(derivative + g * size, u, g, add || interp != nullptr || g > 0, work, ahead);
+      }
+      break;
+    case Route::full:
+      for (std::size_t g = 0; interp != nullptr && g < interp_.size(); g++) {
+        interp_[g].apply_transpose(num_comp_, 1, interp + g * size, u, ahead, add || g > 0);
+      }
+      for (std::size_t g = 0; derivative != nullptr && g < derivative_.size(); g++) {
+        derivative_[g].apply_transpose(num_comp_, 1, derivative + g * size, u, ahead,
+                                       add || interp != nullptr || g > 0);
+      }
+      break;
+  }
+}
+
+}  // namespace hg::host

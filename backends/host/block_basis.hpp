@@ -1,0 +1,87 @@
+/// @file
+/// A basis for a block of elements, as a chain of contractions.
+#pragma once
+
+#include <ceed/backend.h>
+
+#include <vector>
+
+#include "kernels.hpp"
+
+namespace hg::host {
+
+/// A matrix of one direction with the kernels that apply it, and its transpose.
+class Factor {
+ public:
+  Factor() = default;
+  /// B: M by N, row-major
+  Factor(const Kernels &kernels, const CeedScalar *B, CeedInt M, CeedInt N);
+  /// out (+)= B in along a direction, see Contraction
+  void apply(CeedInt pre, CeedInt post, const CeedScalar *in, CeedScalar *out, Ahead &ahead, bool add = false) const {
+    forward_.kernel[add](forward_.coefficients.data(), M_, N_, pre, post, in, out, ahead);
+  }
+  /// out (+)= B^T in
+  void apply_transpose(CeedInt pre, CeedInt post, const CeedScalar *in, CeedScalar *out, Ahead &ahead,
+                       bool add = false) const {
+    back_.kernel[add](back_.coefficients.data(), N_, M_, pre, post, in, out, ahead);
+  }
+
+ private:
+  struct Direction {
+    std::vector<CeedScalar> coefficients;
+    Contraction kernel[2];  ///< to set, to add
+  };
+  static Direction prepare(const Kernels &kernels, const std::vector<CeedScalar> &B, CeedInt M, CeedInt N);
+
+  CeedInt M_ = 0, N_ = 0;
+  Direction forward_, back_;
+};
+
+/// A basis for W elements side by side, made once from a CeedBasis of which it keeps nothing. With P nodes, Q
+/// quadrature points and nc components, arrays of a block are
+///   u           (component, node): nc x P
+///   interp      (value, component, point): q_interp x nc x Q
+///   derivative  (value, component, point): q_derivative x nc x Q
+/// with the last index fastest, W numbers each. Tensor products go direction by direction; where Q_1d >= P_1d
+/// derivatives are taken of the values at the quadrature points (the collocated derivative), else of each direction's
+/// own chain.
+class BlockBasis {
+ public:
+  BlockBasis(const Kernels &kernels, CeedBasis basis);
+
+  CeedInt num_points() const { return power(Q_, num_directions_); }
+  /// Numbers of the work array that the functions below need.
+  std::size_t work_size() const { return 3 * work_stride_; }
+  /// interp = B u, derivative = G u; either may be NULL
+  void evaluate(const CeedScalar *u, CeedScalar *interp, CeedScalar *derivative, CeedScalar *work, Ahead &ahead) const;
+  /// u (+)= B^T interp + G^T derivative; either may be NULL. What is in `interp` afterwards is undefined.
+  void integrate(CeedScalar *interp, const CeedScalar *derivative, CeedScalar *u, bool add, CeedScalar *work,
+                 Ahead &ahead) const;
+  /// Quadrature weights, one for each point.
+  const std::vector<CeedScalar> &weights() const { return weights_; }
+
+ private:
+  static CeedInt power(CeedInt base, CeedInt exponent) { return CeedIntPow(base, exponent); }
+  void create_tensor(const Kernels &kernels, CeedBasis basis);
+  void create_full(const Kernels &kernels, CeedBasis basis);
+  void to_points(const CeedScalar *u, CeedScalar *values, CeedInt derived_direction, CeedScalar *work,
+                 Ahead &ahead) const;
+  void to_nodes(const CeedScalar *values, CeedScalar *u, CeedInt derived_direction, bool add, CeedScalar *work,
+                Ahead &ahead) const;
+
+  enum class Route {
+    identity,    ///< tensor product whose points are the nodes
+    collocated,  ///< tensor product, derivatives at the points
+    chains,      ///< tensor product, a chain for each derivative
+    full,        ///< a matrix for each value
+  };
+  Route route_ = Route::full;
+  CeedInt width_ = 0;
+  CeedInt num_directions_ = 1, num_comp_ = 0, P_ = 0, Q_ = 0;  ///< P, Q: of a direction
+  Factor interp_1d_, grad_1d_;                                 ///< tensor; grad_1d: between points where collocated
+  std::vector<Factor> interp_, derivative_;                    ///< full: one for each value
+  std::vector<CeedScalar> weights_;
+  std::size_t work_stride_ = 0;
+};
+
+}  // namespace hg::host

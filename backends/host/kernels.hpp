@@ -1,0 +1,100 @@
+/// @file
+/// The kernels of host backends as functions: one table for each instruction set, all from the same text. Work is done
+/// on blocks of W elements side by side: entry k of a block's array holds the W numbers [k*W, k*W + W), one for each
+/// element. Arrays of blocks are aligned to CEED_ALIGN.
+#pragma once
+
+#include <ceed/types.h>
+
+#include <cstdint>
+
+namespace hg::host {
+
+inline constexpr CeedInt max_width = 8;
+
+/// How a matrix of one direction reads from both ends: B(M-1-m, N-1-n) = s B(m, n).
+enum class Symmetry {
+  none,
+  even,  ///< s = 1: values at points that lie symmetrically
+  odd,   ///< s = -1: first derivatives
+};
+
+/// What kernels ask the memory for while they compute: `lines` cache lines at each step of their innermost loop, from
+/// the address `next` on, which moves along. Nothing is read, so that the address may lie anywhere. Data that stream by
+/// once (geometry at the points) are otherwise waited for when a block begins, and the memory waits while it is worked
+/// on.
+struct Ahead {
+  static constexpr CeedInt line = 64;  ///< bytes
+  std::uintptr_t next = 0;
+  CeedInt lines = 0;
+};
+
+/// Applies a matrix B, M by N, along one direction of an array in_(a,n,c), a < pre, c < post:
+///   out_(a,m,c) = Σ_n B_(m,n) in_(a,n,c), or +=.
+/// Coefficients, for Symmetry::none: B, row after row; else for each of the first (M+1)/2 rows m the even ones
+/// (B_(m,n) + B_(m,N-1-n))/2, n < (N+1)/2, but B_(m,n) itself in the middle of an odd N, then the odd ones
+/// (B_(m,n) - B_(m,N-1-n))/2, n < N/2.
+/// Floor: (N + M) post*pre loads and stores of W numbers; M N post*pre fused multiplications and additions, half of
+/// them where B is symmetric (even-odd decomposition; Solomonoff, J. Comput. Phys. 98 (1992), 174-177).
+using Contraction = void (*)(const CeedScalar *coefficients, CeedInt M, CeedInt N, CeedInt pre, CeedInt post,
+                             const CeedScalar *in, CeedScalar *out, Ahead &ahead);
+
+/// Where the elements of a block find their nodes in an L-vector. Lanes beyond the last element repeat it.
+struct BlockNodes {
+  CeedInt num_nodes, num_comp;
+  CeedInt comp_stride;
+  CeedInt step;                       ///< between offsets of one element
+  const CeedInt *offsets[max_width];  ///< of each lane
+};
+
+/// The points of one element, and what is evaluated there: num_comp functions, given by K^dim Chebyshev coefficients c
+/// each, (component, k_(dim-1), ..., k_0), of which entry k is at coefficients[k*W] (those of an element in a block).
+/// Arrays at points have `stride` numbers between components, and dim*num_comp components for derivatives, the
+/// direction slower than the component.
+struct PointEvaluation {
+  CeedInt dim, K, num_comp, num_points;
+  const CeedScalar *x_ref;  ///< (direction, point)
+  CeedSize stride;          ///< between components, and between directions of x_ref
+  Ahead *ahead;             ///< a step for each W points
+};
+/// values, or NULL; derivatives where the kernel is one with derivatives
+using EvaluatePoints = void (*)(const PointEvaluation &evaluation, const CeedScalar *coefficients, CeedScalar *values,
+                                CeedScalar *derivatives);
+/// The transpose: coefficients are overwritten; `sums`: W num_comp K^dim numbers to work with.
+using IntegratePoints = void (*)(const PointEvaluation &evaluation, const CeedScalar *values,
+                                 const CeedScalar *derivatives, CeedScalar *sums, CeedScalar *coefficients);
+
+struct Kernels {
+  const char *isa;  ///< for people: "avx512"
+  CeedInt width;    ///< W
+
+  /// The kernel for a matrix of this shape. With a symmetry: one made for the shape, or NULL; without: for any shape.
+  Contraction (*contraction)(CeedInt M, CeedInt N, Symmetry symmetry, bool add);
+
+  /// The kernels for K coefficients of a direction; NULL where there are too many.
+  EvaluatePoints (*point_evaluation)(CeedInt K, bool with_derivatives);
+  IntegratePoints (*point_integration)(CeedInt K, bool with_derivatives);
+  /// values_(c,p) = l[offsets[p]*num_comp + c], p < num_points; l has l_size numbers
+  void (*gather_points)(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *l,
+                        CeedSize l_size, CeedSize stride, CeedScalar *values);
+  /// l[offsets[p]*num_comp + c] += values_(c,p)
+  void (*scatter_add_points)(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *values,
+                             CeedSize stride, CeedScalar *l);
+
+  /// block_(c,n) = l[offsets[n*step] + c*comp_stride]
+  void (*gather)(const BlockNodes &nodes, const CeedScalar *l, CeedScalar *block);
+  /// Asks the memory for the entries of an L-vector that `nodes` lead to, to read them or to add to them.
+  void (*ask_for_nodes)(const BlockNodes &nodes, const CeedScalar *l, bool to_write);
+  /// l[...] += row_(c,n) for the element in one lane
+  void (*scatter_add)(const BlockNodes &nodes, CeedInt lane, const CeedScalar *row, CeedScalar *l);
+  /// block_k = rows[lane][k], k < count
+  void (*gather_rows)(CeedInt count, const CeedScalar *const *rows, CeedScalar *block);
+  /// rows[lane*count + k] = block_k
+  void (*to_rows)(CeedSize count, const CeedScalar *block, CeedScalar *rows);
+};
+
+/// The kernels for this machine; the environment variable CEED_HOST_ISA (portable, avx2, avx512) takes another set that
+/// the machine has. NULL, with the reason, where it names none such.
+const Kernels *kernels(const char **reason);
+
+}  // namespace hg::host

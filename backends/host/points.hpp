@@ -1,0 +1,264 @@
+/// @file
+/// Tensor-product polynomials at arbitrary points, W points side by side, in the basis of Chebyshev polynomials T_k,
+/// whose values come by recurrence.
+#pragma once
+
+#include "ahead.hpp"
+#include "kernels.hpp"
+#include "pack.hpp"
+
+namespace hg::host::HG_HOST_ISA {
+
+/// The first n of W numbers, the others 0.
+[[gnu::always_inline]] inline Pack load_some(const CeedScalar *from, CeedInt n) {
+  if (n >= W) return load_anywhere(from);
+  Pack v{};
+  for (CeedInt i = 0; i < n; i++) v[i] = from[i];
+  return v;
+}
+
+[[gnu::always_inline]] inline void store_some(CeedScalar *to, Pack v, CeedInt n) {
+  if (n >= W) return store_anywhere(to, v);
+  for (CeedInt i = 0; i < n; i++) to[i] = v[i];
+}
+
+/// T_k(x) and T'_k(x), k < K:
+///   T_(k+1) = 2 x T_k - T_(k-1),   T'_(k+1) = 2 T_k + 2 x T'_k - T'_(k-1).
+[[gnu::always_inline]] inline void chebyshev(CeedInt K, Pack x, Pack *T, Pack *dT) {
+  T[0] = broadcast(1.0);
+  dT[0] = Pack{};
+  if (K == 1) return;
+  T[1] = x;
+  dT[1] = T[0];
+  const Pack twice = x + x;
+  for (CeedInt k = 1; k + 1 < K; k++) {
+    T[k + 1] = fma(twice, T[k], -T[k - 1]);
+    dT[k + 1] = fma(twice, dT[k], (T[k] + T[k]) - dT[k - 1]);
+  }
+}
+
+/// Most coefficients of a direction that these kernels take.
+inline constexpr CeedInt most_coefficients = 16;
+
+/// T and T' of each direction at W points; directions beyond `dim` are constant.
+struct PointTable {
+  Pack T[3][most_coefficients], dT[3][most_coefficients];
+
+  [[gnu::always_inline]] void fill(CeedInt dim, CeedInt K, const CeedScalar *x_ref, CeedSize stride, CeedInt n) {
+    for (CeedInt d = 0; d < 3; d++) {
+      if (d == 0 || d < dim) {
+        chebyshev(K, load_some(x_ref + d * stride, n), T[d], dT[d]);
+      } else {
+        T[d][0] = broadcast(1.0);
+        dT[d][0] = Pack{};
+      }
+    }
+  }
+};
+
+/// v = Σ c_(k2,k1,k0) T_k2(z) T_k1(y) T_k0(x) and its derivatives, W points of one element at a time.
+/// Floor of a pack, multiplications with additions: 2 K^3 + 3 K^2 + 4 K with derivatives, K^3 + K^2 + K without.
+template <int fixed_K, bool with_derivatives>
+void evaluate_points(const PointEvaluation &e, const CeedScalar *coefficients, CeedScalar *values,
+                     CeedScalar *derivatives) {
+  const CeedInt K = fixed_K > 0 ? fixed_K : e.K, K1 = e.dim > 1 ? K : 1, K2 = e.dim > 2 ? K : 1;
+  const CeedSize of_component = static_cast<CeedSize>(K) * K1 * K2 * W;
+  PointTable table;
+  for (CeedInt first = 0; first < e.num_points; first += W) {
+    const CeedInt n = e.num_points - first;
+    ask(*e.ahead);
+    table.fill(e.dim, K, e.x_ref + first, e.stride, n);
+    for (CeedInt comp = 0; comp < e.num_comp; comp++) {
+      const CeedScalar *c = coefficients + comp * of_component;
+      Pack v{}, x{}, y{}, z{};
+      for (CeedInt k2 = 0; k2 < K2; k2++) {
+        Pack plane{}, plane_x{}, plane_y{};
+        for (CeedInt k1 = 0; k1 < K1; k1++) {
+          Pack row{}, row_x{};
+#pragma GCC unroll 16
+          for (CeedInt k0 = 0; k0 < K; k0++, c += W) {
+            row = fma(*c, table.T[0][k0], row);
+            if constexpr (with_derivatives) row_x = fma(*c, table.dT[0][k0], row_x);
+          }
+          plane = fma(row, table.T[1][k1], plane);
+          if constexpr (with_derivatives) {
+            plane_x = fma(row_x, table.T[1][k1], plane_x);
+            plane_y = fma(row, table.dT[1][k1], plane_y);
+          }
+        }
+        v = fma(plane, table.T[2][k2], v);
+        if constexpr (with_derivatives) {
+          x = fma(plane_x, table.T[2][k2], x);
+          y = fma(plane_y, table.T[2][k2], y);
+          z = fma(plane, table.dT[2][k2], z);
+        }
+      }
+      if (values != nullptr) store_some(values + comp * e.stride + first, v, n);
+      if constexpr (with_derivatives) {
+        const CeedSize of_direction = e.num_comp * e.stride;
+        CeedScalar *to = derivatives + comp * e.stride + first;
+        store_some(to, x, n);
+        if (e.dim > 1) store_some(to + of_direction, y, n);
+        if (e.dim > 2) store_some(to + 2 * of_direction, z, n);
+      }
+    }
+  }
+}
+
+/// sums_k W numbers -> their sums, at to[k*W].
+[[gnu::always_inline]] inline void reduce(const CeedScalar *sums, CeedInt count, CeedScalar *to) {
+  CeedInt k = 0;
+  for (; k + W <= count; k += W) {
+    Pack square[W];
+#pragma GCC unroll 8
+    for (int i = 0; i < W; i++) square[i] = load(sums + (k + i) * W);
+    transpose(square);
+#pragma GCC unroll 8
+    for (int i = 1; i < W; i++) square[0] += square[i];
+    for (int i = 0; i < W; i++) to[(k + i) * W] = square[0][i];
+  }
+  for (; k < count; k++) {
+    CeedScalar sum = 0;
+    for (int i = 0; i < W; i++) sum += sums[k * W + i];
+    to[k * W] = sum;
+  }
+}
+
+/// Adds what `packs` times W points from `first` on give to the sums of all components.
+template <int fixed_K, bool with_derivatives, int packs>
+[[gnu::always_inline]] inline void integrate_packs(const PointEvaluation &e, CeedInt first, const CeedScalar *values,
+                                                   const CeedScalar *derivatives, CeedScalar *sum) {
+  const CeedInt K = fixed_K > 0 ? fixed_K : e.K, K1 = e.dim > 1 ? K : 1, K2 = e.dim > 2 ? K : 1;
+  PointTable table[packs];
+#pragma GCC unroll 2
+  for (int i = 0; i < packs; i++) {
+    ask(*e.ahead);
+    table[i].fill(e.dim, K, e.x_ref + first + i * W, e.stride, e.num_points - first - i * W);
+  }
+  for (CeedInt comp = 0; comp < e.num_comp; comp++) {
+    Pack v[packs]{}, x[packs]{}, y[packs]{}, z[packs]{};
+#pragma GCC unroll 2
+    for (int i = 0; i < packs; i++) {
+      const CeedInt n = e.num_points - first - i * W;
+      const CeedSize at = comp * e.stride + first + i * W, of_direction = e.num_comp * e.stride;
+      if (values != nullptr) v[i] = load_some(values + at, n);
+      if constexpr (with_derivatives) {
+        x[i] = load_some(derivatives + at, n);
+        if (e.dim > 1) y[i] = load_some(derivatives + of_direction + at, n);
+        if (e.dim > 2) z[i] = load_some(derivatives + 2 * of_direction + at, n);
+      }
+    }
+    for (CeedInt k2 = 0; k2 < K2; k2++) {
+      Pack plane[packs], plane_x[packs]{}, plane_y[packs]{};
+#pragma GCC unroll 2
+      for (int i = 0; i < packs; i++) {
+        plane[i] = v[i] * table[i].T[2][k2];
+        if constexpr (with_derivatives) {
+          plane[i] = fma(z[i], table[i].dT[2][k2], plane[i]);
+          plane_x[i] = x[i] * table[i].T[2][k2];
+          plane_y[i] = y[i] * table[i].T[2][k2];
+        }
+      }
+      for (CeedInt k1 = 0; k1 < K1; k1++) {
+        Pack row[packs], row_x[packs]{};
+#pragma GCC unroll 2
+        for (int i = 0; i < packs; i++) {
+          row[i] = plane[i] * table[i].T[1][k1];
+          if constexpr (with_derivatives) {
+            row[i] = fma(plane_y[i], table[i].dT[1][k1], row[i]);
+            row_x[i] = plane_x[i] * table[i].T[1][k1];
+          }
+        }
+#pragma GCC unroll 16
+        for (CeedInt k0 = 0; k0 < K; k0++, sum += W) {
+          Pack s = load(sum);
+#pragma GCC unroll 2
+          for (int i = 0; i < packs; i++) {
+            s = fma(row[i], table[i].T[0][k0], s);
+            if constexpr (with_derivatives) s = fma(row_x[i], table[i].dT[0][k0], s);
+          }
+          store(sum, s);
+        }
+      }
+    }
+  }
+}
+
+/// The transpose: c_(k2,k1,k0) = Σ over the points of v T T T + x T T T' + ...; `sums` holds W numbers for each
+/// coefficient. Two packs of points share the loads and stores of the sums, which are the limit.
+template <int fixed_K, bool with_derivatives>
+void integrate_points(const PointEvaluation &e, const CeedScalar *values, const CeedScalar *derivatives,
+                      CeedScalar *sums, CeedScalar *coefficients) {
+  const CeedInt K = fixed_K > 0 ? fixed_K : e.K;
+  const CeedInt num_coefficients = K * (e.dim > 1 ? K : 1) * (e.dim > 2 ? K : 1) * e.num_comp;
+  for (CeedInt k = 0; k < num_coefficients; k++) store(sums + k * W, Pack{});
+  CeedInt first = 0;
+  for (; first + W < e.num_points; first += 2 * W) {
+    integrate_packs<fixed_K, with_derivatives, 2>(e, first, values, derivatives, sums);
+  }
+  if (first < e.num_points) integrate_packs<fixed_K, with_derivatives, 1>(e, first, values, derivatives, sums);
+  reduce(sums, num_coefficients, coefficients);
+}
+
+/// Kernels for K = 2 ... 9, and at 0 for any K.
+inline constexpr int largest_fixed_K = 9;
+struct PointTables {
+  template <int K>
+  constexpr void fill() {
+    evaluate[K][0] = evaluate_points<K, false>;
+    evaluate[K][1] = evaluate_points<K, true>;
+    integrate[K][0] = integrate_points<K, false>;
+    integrate[K][1] = integrate_points<K, true>;
+    if constexpr (K < largest_fixed_K) fill<K == 0 ? 2 : K + 1>();
+  }
+  constexpr PointTables() { fill<0>(); }
+
+  EvaluatePoints evaluate[largest_fixed_K + 1][2] = {};
+  IntegratePoints integrate[largest_fixed_K + 1][2] = {};
+};
+inline constexpr PointTables point_tables;
+
+inline EvaluatePoints point_evaluation(CeedInt K, bool with_derivatives) {
+  if (K > most_coefficients) return nullptr;
+  return point_tables.evaluate[K >= 2 && K <= largest_fixed_K ? K : 0][with_derivatives];
+}
+inline IntegratePoints point_integration(CeedInt K, bool with_derivatives) {
+  if (K > most_coefficients) return nullptr;
+  return point_tables.integrate[K >= 2 && K <= largest_fixed_K ? K : 0][with_derivatives];
+}
+
+/// values_(c,p) = l[offsets[p]*num_comp + c]. The numbers of a point lie together: W points are rows, turned in
+/// registers. Rows are read W numbers wide, but not beyond the end of l.
+inline void gather_points(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *l,
+                          CeedSize l_size, CeedSize stride, CeedScalar *values) {
+  CeedInt p = 0;
+  for (; p + W <= num_points; p += W) {
+    for (CeedInt c = 0; c < num_comp; c += W) {
+      Pack square[W];
+#pragma GCC unroll 8
+      for (int i = 0; i < W; i++) {
+        const CeedSize at = static_cast<CeedSize>(offsets[p + i]) * num_comp + c;
+        square[i] = at + W <= l_size ? load_anywhere(l + at) : load_some(l + at, num_comp - c);
+      }
+      transpose(square);
+#pragma GCC unroll 8
+      for (int i = 0; i < W; i++) {
+        if (c + i < num_comp) store_anywhere(values + (c + i) * stride + p, square[i]);
+      }
+    }
+  }
+  for (; p < num_points; p++) {
+    const CeedScalar *from = l + static_cast<CeedSize>(offsets[p]) * num_comp;
+    for (CeedInt c = 0; c < num_comp; c++) values[c * stride + p] = from[c];
+  }
+}
+
+inline void scatter_add_points(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *values,
+                               CeedSize stride, CeedScalar *l) {
+  for (CeedInt p = 0; p < num_points; p++) {
+    CeedScalar *to = l + static_cast<CeedSize>(offsets[p]) * num_comp;
+    for (CeedInt c = 0; c < num_comp; c++) to[c] += values[c * stride + p];
+  }
+}
+
+}  // namespace hg::host::HG_HOST_ISA

@@ -1,0 +1,222 @@
+// The SIMD backend: what it owes beyond the conformance suite, which knows no backend.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../conformance/oracle/instance.hpp"
+#include "support/errors.hpp"
+#include "support/handles.hpp"
+#include "support/random.hpp"
+#include "support/values.hpp"
+
+namespace {
+
+using namespace hg::test;
+
+constexpr const char *blocked = "/cpu/self/avx/blocked";
+
+/// Chooses the instruction set of operators that are made while it lives.
+class Isa {
+ public:
+  explicit Isa(const std::string &name) {
+    if (const char *set = std::getenv(variable)) before_ = set;
+    ::setenv(variable, name.c_str(), 1);
+  }
+  ~Isa() {
+    if (before_) {
+      ::setenv(variable, before_->c_str(), 1);
+    } else {
+      ::unsetenv(variable);
+    }
+  }
+  Isa(const Isa &) = delete;
+  Isa &operator=(const Isa &) = delete;
+
+ private:
+  static constexpr const char *variable = "CEED_HOST_ISA";
+  std::optional<std::string> before_;
+};
+
+/// What a request opens.
+std::string resource_of(const char *request) {
+  const CeedHandle ceed{open(request)};
+  const char *resource = nullptr;
+  ok(CeedGetResource(ceed, &resource));
+  return resource;
+}
+
+/// Instruction sets with fused multiplications that this machine has, which round alike: 4 and 8 elements in a block.
+std::vector<std::string> fused() {
+  std::vector<std::string> found;
+  for (const char *name : {"avx2", "avx512"}) {
+    const Isa isa(name);
+    if (resource_of("/cpu/self") == blocked) found.push_back(name);
+  }
+  return found;
+}
+
+Values applied(const std::string &isa_name, const Case &c, const Values &in) {
+  const Isa isa(isa_name);
+  const CeedHandle ceed{open(blocked)};
+  const Instance instance(ceed, c);
+  const Values first = apply(instance, c, in);
+  EXPECT_EQ(apply(instance, c, in), first) << "a second application on " << isa_name;
+  return first;
+}
+
+/// Elements in a block are added one after another, so that the number of them changes no bit.
+TEST(Avx, DoesNotDependOnTheSizeOfBlocks) {
+  const auto names = fused();
+  if (names.size() < 2) GTEST_SKIP() << "this machine has one width of fused multiplications, or none";
+  for (int seed = 0; seed < num_cases(40); seed++) {
+    Random random(7000 + static_cast<std::uint64_t>(seed));
+    const Case c =
+        random_case(random, {.dim = 1 + seed % 3, .is_oriented = seed % 4 == 3, .has_many_elements = seed % 2 == 1});
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + describe(c));
+    const Values in = random.reals(c.input_size());
+    EXPECT_EQ(applied(names[0], c, in), applied(names[1], c, in));
+  }
+}
+
+TEST(Avx, RepeatsItselfAtPoints) {
+  for (int seed = 0; seed < num_cases(20); seed++) {
+    Random random(7100 + static_cast<std::uint64_t>(seed));
+    const Case c = random_case(random, {.dim = 1 + seed % 3, .at_points = true});
+    applied("portable", c, random.reals(c.input_size()));
+  }
+}
+
+std::vector<std::size_t> *calls = nullptr;
+int count_points(void *, const CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+  calls->push_back(static_cast<std::size_t>(Q));
+  for (CeedInt q = 0; q < Q; q++) out[0][q] = in[0][q];
+  return 0;
+}
+
+/// Whoever counts or sums in a QFunction sees each point once, whatever the number of elements.
+TEST(Avx, CallsTheFunctionOnceForEachPoint) {
+  const CeedHandle ceed{open(blocked)};
+  constexpr CeedInt Q = 3;
+  for (const CeedInt vec_length : {1, 2}) {
+    for (CeedInt num_elem = 1; num_elem <= 19; num_elem++) {
+      QFunction qf;
+      Restriction rstr;
+      Basis basis;
+      Operator op;
+      std::vector<CeedInt> offsets;
+      for (CeedInt i = 0; i < 2 * num_elem; i++) offsets.push_back(i);
+      ok(CeedQFunctionCreateInterior(ceed, vec_length, count_points, "nowhere.h:count_points", qf.out()));
+      ok(CeedQFunctionAddInput(qf, "u", 1, CEED_EVAL_INTERP));
+      ok(CeedQFunctionAddOutput(qf, "v", 1, CEED_EVAL_INTERP));
+      ok(CeedElemRestrictionCreate(ceed, num_elem, 2, 1, 1, 2 * num_elem, CEED_MEM_HOST, CEED_COPY_VALUES,
+                                   offsets.data(), rstr.out()));
+      ok(CeedBasisCreateTensorH1Lagrange(ceed, 1, 1, 2, Q, CEED_GAUSS, basis.out()));
+      ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
+      ok(CeedOperatorSetField(op, "u", rstr, basis, CEED_VECTOR_ACTIVE));
+      ok(CeedOperatorSetField(op, "v", rstr, basis, CEED_VECTOR_ACTIVE));
+      const Vector u = make_vector(ceed, Values(2 * num_elem, 1.0)), v = make_vector(ceed, Values(2 * num_elem, 0.0));
+      std::vector<std::size_t> sizes;
+      calls = &sizes;
+      ok(CeedOperatorApply(op, u, v, CEED_REQUEST_IMMEDIATE));
+      std::size_t total = 0;
+      for (const std::size_t size : sizes) {
+        EXPECT_EQ(size % static_cast<std::size_t>(vec_length), 0u);
+        total += size;
+      }
+      const auto points = static_cast<std::size_t>(num_elem * Q), length = static_cast<std::size_t>(vec_length);
+      EXPECT_EQ(total, (points + length - 1) / length * length) << num_elem << " elements, vec_length " << vec_length;
+    }
+  }
+}
+
+int calls_until_failure = 0;
+int weigh_or_fail(void *, const CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+  if (--calls_until_failure == 0) return 1;
+  for (CeedInt q = 0; q < Q; q++) out[0][q] = in[0][q] * in[1][q];
+  return 0;
+}
+
+/// A solver that gets an error tries again with a smaller step, on the same operator.
+TEST(Avx, IsRightAfterAFunctionThatFailed) {
+  const CeedHandle ceed{open(blocked)};
+  constexpr CeedInt Q = 3;
+  for (const CeedInt num_elem : {3, 8, 19}) {
+    QFunction qf;
+    Restriction rstr;
+    Basis basis;
+    Operator op;
+    std::vector<CeedInt> offsets;
+    for (CeedInt i = 0; i < 2 * num_elem; i++) offsets.push_back(i);
+    ok(CeedQFunctionCreateInterior(ceed, 1, weigh_or_fail, "nowhere.h:weigh_or_fail", qf.out()));
+    ok(CeedQFunctionAddInput(qf, "u", 1, CEED_EVAL_INTERP));
+    ok(CeedQFunctionAddInput(qf, "w", 1, CEED_EVAL_WEIGHT));
+    ok(CeedQFunctionAddOutput(qf, "v", 1, CEED_EVAL_INTERP));
+    ok(CeedElemRestrictionCreate(ceed, num_elem, 2, 1, 1, 2 * num_elem, CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(),
+                                 rstr.out()));
+    ok(CeedBasisCreateTensorH1Lagrange(ceed, 1, 1, 2, Q, CEED_GAUSS, basis.out()));
+    ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
+    ok(CeedOperatorSetField(op, "u", rstr, basis, CEED_VECTOR_ACTIVE));
+    ok(CeedOperatorSetField(op, "w", CEED_ELEMRESTRICTION_NONE, basis, CEED_VECTOR_NONE));
+    ok(CeedOperatorSetField(op, "v", rstr, basis, CEED_VECTOR_ACTIVE));
+    const Vector u = make_vector(ceed, Values(2 * num_elem, 1.0)), v = make_vector(ceed, Values(2 * num_elem, 0.0));
+    for (int failing = 1; failing <= 10; failing++) {
+      calls_until_failure = failing;
+      const int code = CeedOperatorApply(op, u, v, CEED_REQUEST_IMMEDIATE);
+      if (calls_until_failure > 0) break;  // it was never called so often
+      EXPECT_EQ(code, CEED_ERROR_BACKEND);
+      calls_until_failure = 0;
+      ok(CeedOperatorApply(op, u, v, CEED_REQUEST_IMMEDIATE));
+      // Each of two functions has the integral 1 on [-1,1].
+      for (const CeedScalar value : values_of(v)) EXPECT_NEAR(value, 1.0, 1e-14) << num_elem << " elements";
+    }
+    EXPECT_LT(calls_until_failure, 100);
+  }
+}
+
+/// Memory for assembly does not grow with the mesh: it goes piece by piece, and pieces begin at any element. Counts of
+/// points are such that W elements from an odd one on have more points than any W from a multiple of W on.
+TEST(Avx, AssemblesPiecesOfUnevenMeshesAtPoints) {
+  const CeedHandle ceed{open(blocked)}, other{open(reference_resource)};
+  constexpr CeedInt num_elem = 6000, num_comp = 3, dim = 3, P_1d = 2, elem_size = 8;
+  const auto count = [](CeedInt e) { return e % 16 >= 6 && e % 16 <= 9 ? 30 : 0; };
+  const auto diagonal_on = [&](Ceed on) {
+    std::vector<CeedInt> points{num_elem + 1}, nodes;
+    for (CeedInt e = 0; e < num_elem; e++) points.push_back(points.back() + count(e));
+    const CeedInt num_points = points.back() - num_elem - 1;
+    for (CeedInt p = 0; p < num_points; p++) points.push_back(p);
+    for (CeedInt i = 0; i < num_elem * elem_size; i++) nodes.push_back(num_comp * i);
+    Restriction at_points, rstr;
+    Basis basis;
+    QFunction qf;
+    Operator op;
+    ok(CeedElemRestrictionCreateAtPoints(on, num_elem, num_points, dim, CeedSize{num_points} * dim, CEED_MEM_HOST,
+                                         CEED_COPY_VALUES, points.data(), at_points.out()));
+    ok(CeedElemRestrictionCreate(on, num_elem, elem_size, num_comp, 1, CeedSize{num_elem} * elem_size * num_comp,
+                                 CEED_MEM_HOST, CEED_COPY_VALUES, nodes.data(), rstr.out()));
+    ok(CeedBasisCreateTensorH1Lagrange(on, dim, num_comp, P_1d, 2, CEED_GAUSS, basis.out()));
+    ok(CeedQFunctionCreateIdentity(on, num_comp * dim, CEED_EVAL_GRAD, CEED_EVAL_GRAD, qf.out()));
+    ok(CeedOperatorCreateAtPoints(on, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
+    ok(CeedOperatorSetField(op, "input", rstr, basis, CEED_VECTOR_ACTIVE));
+    ok(CeedOperatorSetField(op, "output", rstr, basis, CEED_VECTOR_ACTIVE));
+    Random random(7300);
+    const Vector x = make_vector(on, random.reals(CeedSize{num_points} * dim));
+    ok(CeedOperatorAtPointsSetPoints(op, at_points, x));
+    const Vector diagonal = make_vector(on, CeedSize{num_elem} * elem_size * num_comp, 0.0);
+    ok(CeedOperatorLinearAssembleDiagonal(op, diagonal, CEED_REQUEST_IMMEDIATE));
+    return values_of(diagonal);
+  };
+  const Values got = diagonal_on(ceed), want = diagonal_on(other);
+  ASSERT_EQ(got.size(), want.size());
+  expect_close(got, want, 1e-12, "diagonal");
+}
+
+/// A name that is none is told; the next backend serves who did not ask for this one.
+TEST(Avx, SaysWhichInstructionSetItDoesNotKnow) {
+  const Isa isa("mmx");
+  EXPECT_EQ(resource_of("/cpu/self"), "/cpu/self/ref/serial");
+}
+
+}  // namespace
