@@ -52,7 +52,7 @@ PointOperator::PointOperator(const host::Kernels &kernels, const CeedProgram &pr
   for (const auto *sides : {&sources_, &sinks_}) {
     for (const Side &side : *sides) work = std::max(work, side.nodes ? side.nodes->work_size() : 0);
   }
-  x_ref_ = arena_.add(static_cast<std::size_t>(dim_) * most_points_);
+  x_ref_ = add_values(dim_);
   coefficients_ = arena_.add(coefficients);
   sums_ = arena_.add(coefficients);
   work_ = arena_.add(work);
@@ -75,6 +75,11 @@ PointOperator::Side PointOperator::make_side(const host::Kernels &kernels, const
   return made;
 }
 
+/// Room for `size` values at each point of a block; kernels read W points at a time, beyond the last one too.
+int PointOperator::add_values(CeedInt size) {
+  return arena_.add(static_cast<std::size_t>(size) * most_points_ + host::max_width);
+}
+
 /// Room for a side's nodes; false where there was.
 bool PointOperator::add_nodes(Side &side) {
   if (side.block >= 0) return false;
@@ -85,7 +90,7 @@ bool PointOperator::add_nodes(Side &side) {
 void PointOperator::place_inputs(const CeedProgram &program) {
   for (CeedInt i = 0; i < program.num_inputs; i++) {
     const CeedProgramField &field = program.inputs[i];
-    input_arrays_.push_back(arena_.add(static_cast<std::size_t>(field.size) * most_points_));
+    input_arrays_.push_back(add_values(field.size));
     if (field.eval_mode == CEED_EVAL_NONE) {
       copies_in_.push_back({field.side, input_arrays_.back()});
       const bool is_larger = largest_source_ < 0 || sources_[field.side].num_comp > sources_[largest_source_].num_comp;
@@ -100,7 +105,7 @@ void PointOperator::place_inputs(const CeedProgram &program) {
 void PointOperator::place_outputs(const CeedProgram &program) {
   for (CeedInt o = 0; o < program.num_outputs; o++) {
     const CeedProgramField &field = program.outputs[o];
-    output_arrays_.push_back(arena_.add(static_cast<std::size_t>(field.size) * most_points_));
+    output_arrays_.push_back(add_values(field.size));
     if (field.eval_mode == CEED_EVAL_NONE) {
       copies_out_.push_back({field.side, output_arrays_.back()});
     } else {

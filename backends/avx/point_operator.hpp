@@ -56,6 +56,7 @@ class PointOperator {
 
   PointOperator(const host::Kernels &kernels, const CeedProgram &program, std::vector<host::PointBasis> bases);
   Side make_side(const host::Kernels &kernels, const CeedProgramSide &side) const;
+  int add_values(CeedInt size);
   bool add_nodes(Side &side);
   void place_inputs(const CeedProgram &program);
   void place_outputs(const CeedProgram &program);

@@ -50,7 +50,7 @@ struct BlockNodes {
 /// The points of one element, and what is evaluated there: num_comp functions, given by K^dim Chebyshev coefficients c
 /// each, (component, k_(dim-1), ..., k_0), of which entry k is at coefficients[k*W] (those of an element in a block).
 /// Arrays at points have `stride` numbers between components, and dim*num_comp components for derivatives, the
-/// direction slower than the component.
+/// direction slower than the component; max_width numbers more, after the last one, can be read, and are written back.
 struct PointEvaluation {
   CeedInt dim, K, num_comp, num_points;
   const CeedScalar *x_ref;  ///< (direction, point)

@@ -106,4 +106,28 @@ template <int S, int... lanes>
 #endif
 }
 
+#if HG_HOST_WIDTH >= 4
+/// Four numbers: rows and columns are turned by fours, for which processors have more ports than for wider ones.
+typedef CeedScalar Four __attribute__((vector_size(4 * sizeof(CeedScalar))));
+typedef CeedScalar UnalignedFour
+    __attribute__((vector_size(4 * sizeof(CeedScalar)), aligned(sizeof(CeedScalar)), may_alias));
+[[gnu::always_inline]] inline Four load_four(const CeedScalar *from) {
+  return *reinterpret_cast<const UnalignedFour *>(from);
+}
+[[gnu::always_inline]] inline void store_four(CeedScalar *to, Four v) {
+  *reinterpret_cast<UnalignedFour *>(to) = v;
+}
+/// rows[i][j] <-> rows[j][i]
+[[gnu::always_inline]] inline void transpose_fours(Four (&rows)[4]) {
+  const Four a = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6),
+             b = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
+  const Four c = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6),
+             d = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+  rows[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  rows[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  rows[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  rows[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+#endif
+
 }  // namespace hg::host::HG_HOST_ISA

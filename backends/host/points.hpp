@@ -3,23 +3,36 @@
 /// whose values come by recurrence.
 #pragma once
 
+#include <cstdint>
+
 #include "ahead.hpp"
 #include "kernels.hpp"
 #include "pack.hpp"
 
 namespace hg::host::HG_HOST_ISA {
 
-/// The first n of W numbers, the others 0.
-[[gnu::always_inline]] inline Pack load_some(const CeedScalar *from, CeedInt n) {
-  if (n >= W) return load_anywhere(from);
-  Pack v{};
-  for (CeedInt i = 0; i < n; i++) v[i] = from[i];
-  return v;
+/// Which of W lanes are among the first n: all bits of a lane set, or none.
+typedef std::int64_t Mask __attribute__((vector_size(W * sizeof(std::int64_t))));
+[[gnu::always_inline]] inline Mask first_lanes(CeedInt n) {
+#if HG_HOST_WIDTH == 8
+  constexpr Mask lane = {0, 1, 2, 3, 4, 5, 6, 7};
+#elif HG_HOST_WIDTH == 4
+  constexpr Mask lane = {0, 1, 2, 3};
+#else
+  constexpr Mask lane = {0, 1};
+#endif
+  return lane < static_cast<std::int64_t>(n);
 }
 
+/// The first n of W numbers, the others 0. W numbers can be read.
+[[gnu::always_inline]] inline Pack load_some(const CeedScalar *from, CeedInt n) {
+  const Pack v = load_anywhere(from);
+  return n >= W ? v : first_lanes(n) ? v : Pack{};
+}
+
+/// Writes the first n of W numbers. W numbers can be read and written back.
 [[gnu::always_inline]] inline void store_some(CeedScalar *to, Pack v, CeedInt n) {
-  if (n >= W) return store_anywhere(to, v);
-  for (CeedInt i = 0; i < n; i++) to[i] = v[i];
+  store_anywhere(to, n >= W ? v : first_lanes(n) ? v : load_anywhere(to));
 }
 
 /// T_k(x) and T'_k(x), k < K:
@@ -227,26 +240,47 @@ inline IntegratePoints point_integration(CeedInt K, bool with_derivatives) {
   return point_tables.integrate[K >= 2 && K <= largest_fixed_K ? K : 0][with_derivatives];
 }
 
-/// values_(c,p) = l[offsets[p]*num_comp + c]. The numbers of a point lie together: W points are rows, turned in
-/// registers. Rows are read W numbers wide, but not beyond the end of l.
-inline void gather_points(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *l,
-                          CeedSize l_size, CeedSize stride, CeedScalar *values) {
-  CeedInt p = 0;
-  for (; p + W <= num_points; p += W) {
-    for (CeedInt c = 0; c < num_comp; c += W) {
-      Pack square[W];
-#pragma GCC unroll 8
-      for (int i = 0; i < W; i++) {
-        const CeedSize at = static_cast<CeedSize>(offsets[p + i]) * num_comp + c;
-        square[i] = at + W <= l_size ? load_anywhere(l + at) : load_some(l + at, num_comp - c);
-      }
-      transpose(square);
-#pragma GCC unroll 8
-      for (int i = 0; i < W; i++) {
-        if (c + i < num_comp) store_anywhere(values + (c + i) * stride + p, square[i]);
-      }
+#if HG_HOST_WIDTH >= 4
+/// Four components of W points: rows of four numbers, `count` of which are wanted, turned.
+[[gnu::always_inline]] inline void gather_four(const CeedScalar *const *rows, CeedInt count, CeedSize stride,
+                                               CeedScalar *values) {
+#pragma GCC unroll 2
+  for (int part = 0; part < W; part += 4) {
+    Four square[4];
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; i++) square[i] = load_four(rows[part + i]);
+    transpose_fours(square);
+#pragma GCC unroll 4
+    for (int i = 0; i < 4; i++) {
+      if (i < count) store_four(values + i * stride + part, square[i]);
     }
   }
+}
+#endif
+
+/// values_(c,p) = l[offsets[p]*num_comp + c]. The numbers of a point lie together: points are rows, turned in registers
+/// four by four. Rows are read four numbers wide, but not beyond the end of l.
+inline void gather_points(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *l,
+                          [[maybe_unused]] CeedSize l_size, CeedSize stride, CeedScalar *values) {
+  CeedInt p = 0;
+#if HG_HOST_WIDTH >= 4
+  for (; p + W <= num_points; p += W) {
+    const CeedScalar *rows[W];
+    bool is_inside = true;
+#pragma GCC unroll 8
+    for (int i = 0; i < W; i++) {
+      const CeedSize at = static_cast<CeedSize>(offsets[p + i]) * num_comp;
+      rows[i] = l + at;
+      is_inside = is_inside && at + num_comp + 3 <= l_size;
+    }
+    if (!is_inside) break;
+    for (CeedInt c = 0; c < num_comp; c += 4) {
+      gather_four(rows, num_comp - c, stride, values + c * stride + p);
+#pragma GCC unroll 8
+      for (int i = 0; i < W; i++) rows[i] += 4;
+    }
+  }
+#endif
   for (; p < num_points; p++) {
     const CeedScalar *from = l + static_cast<CeedSize>(offsets[p]) * num_comp;
     for (CeedInt c = 0; c < num_comp; c++) values[c * stride + p] = from[c];
