@@ -28,10 +28,11 @@ std::unique_ptr<AnyOperator> make(const host::Kernels &kernels, const CeedProgra
   return nullptr;
 }
 
+template <bool is_blocked>
 int create(CeedOperator op, const CeedProgram *program) {
   return host::wall(CeedOperatorReturnCeed(op), [&] {
     const char *reason = "";
-    const host::Kernels *kernels = host::kernels(&reason);
+    const host::Kernels *kernels = host::kernels(is_blocked, &reason);
     if (kernels == nullptr) throw std::runtime_error(reason);
     auto any = make(*kernels, *program);
     host::chk(CeedOperatorSetData(op, any.get()));
@@ -79,29 +80,34 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
 }
 
 int score(const char **reason) {
-  return host::kernels(reason) != nullptr ? 1 : 0;
+  return host::kernels(true, reason) != nullptr ? 1 : 0;
 }
 
+template <bool is_blocked>
 int init(Ceed, const char *, CeedBackendOps *ops) {
   if (parents_tables.size == 0) parents_tables = *ops;
-  ops->op.create = create;
+  ops->op.create = create<is_blocked>;
   ops->op.destroy = destroy;
   ops->op.apply_add = apply_add;
   ops->op.linear_assemble_qfunction = linear_assemble_qfunction;
   return CEED_ERROR_SUCCESS;
 }
 
-constexpr CeedBackend backends[] = {{.resource = "/cpu/self/avx/blocked",
-                                     .parent = "/cpu/self/ref/serial",
-                                     .priority = 30,
-                                     .aliases = nullptr,
-                                     .score = score,
-                                     .init = init}};
+constexpr CeedBackend backend(const char *resource, unsigned priority, decltype(CeedBackend::init) init) {
+  return {.resource = resource,
+          .parent = "/cpu/self/ref/serial",
+          .priority = priority,
+          .aliases = nullptr,
+          .score = score,
+          .init = init};
+}
+constexpr CeedBackend backends[] = {backend("/cpu/self/avx/blocked", 30, init<true>),
+                                    backend("/cpu/self/avx/serial", 35, init<false>)};
 
 constexpr CeedPlugin plugin{.size = sizeof(CeedPlugin),
                             .api_version = CEED_PLUGIN_API_VERSION,
                             .name = "avx",
-                            .num_backends = 1,
+                            .num_backends = 2,
                             .backends = backends};
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../host/access.hpp"
+#include "../host/kernels.hpp"
 #include "../host/memory.hpp"
 
 namespace hg::avx {
@@ -25,9 +26,10 @@ class Arena {
     return static_cast<int>(starts_.size()) - 1;
   }
   void allocate() {
-    memory_ = host::allocate_array(length_);
+    const std::size_t length = length_ + host::max_width;  // kernels read a pack beyond the last number
+    memory_ = host::allocate_array(length);
     if (!memory_) throw std::bad_alloc();
-    std::fill_n(memory_.get(), length_, 0.0);
+    std::fill_n(memory_.get(), length, 0.0);
   }
   /// NULL for index -1
   CeedScalar *operator[](int index) const { return index < 0 ? nullptr : memory_.get() + starts_[index]; }

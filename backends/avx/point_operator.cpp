@@ -46,15 +46,15 @@ PointOperator::PointOperator(const host::Kernels &kernels, const CeedProgram &pr
   place_outputs(program);
   std::size_t coefficients = 0, work = 0;
   for (const auto &basis : bases_) {
-    coefficients = std::max(coefficients, basis.num_coefficients() * W_);
+    coefficients = std::max(coefficients, basis.num_coefficients());
     work = std::max(work, basis.work_size());
   }
   for (const auto *sides : {&sources_, &sinks_}) {
     for (const Side &side : *sides) work = std::max(work, side.nodes ? side.nodes->work_size() : 0);
   }
   x_ref_ = add_values(dim_);
-  coefficients_ = arena_.add(coefficients);
-  sums_ = arena_.add(coefficients);
+  coefficients_ = arena_.add(coefficients * W_);
+  sums_ = arena_.add(coefficients * host::max_width);  // of points side by side
   work_ = arena_.add(work);
   arena_.allocate();
   for (CeedInt i = 0; i < program.num_inputs; i++) {

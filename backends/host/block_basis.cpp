@@ -37,6 +37,17 @@ std::vector<CeedScalar> even_odd(const std::vector<CeedScalar> &B, CeedInt M, Ce
   return coefficients;
 }
 
+/// B, and its columns where kernels want them, see Kernels::columns.
+std::vector<CeedScalar> with_columns(const std::vector<CeedScalar> &B, CeedInt M, CeedInt N, CeedInt multiple) {
+  std::vector<CeedScalar> coefficients = B;
+  for (CeedInt n = 0; multiple > 0 && n < N; n++) {
+    for (CeedInt m = 0; m < (M + multiple - 1) / multiple * multiple; m++) {
+      coefficients.push_back(m < M ? B[m * N + n] : 0.0);
+    }
+  }
+  return coefficients;
+}
+
 /// D with D B = G, for B and G Q by P; empty where there is none to working precision. With B = W R, the columns of W
 /// orthonormal: D = G R^-1 W^T. (The core's pseudoinverse tells the user of dependent columns, which are no error
 /// here.)
@@ -90,7 +101,8 @@ Factor::Direction Factor::prepare(const Kernels &kernels, const std::vector<Ceed
   if (symmetry != Symmetry::none && kernels.contraction(M, N, symmetry, false) != nullptr) {
     return {even_odd(B, M, N), {kernels.contraction(M, N, symmetry, false), kernels.contraction(M, N, symmetry, true)}};
   }
-  return {B, {kernels.contraction(M, N, Symmetry::none, false), kernels.contraction(M, N, Symmetry::none, true)}};
+  return {with_columns(B, M, N, kernels.columns),
+          {kernels.contraction(M, N, Symmetry::none, false), kernels.contraction(M, N, Symmetry::none, true)}};
 }
 
 Factor::Factor(const Kernels &kernels, const CeedScalar *B, CeedInt M, CeedInt N) : M_(M), N_(N) {

@@ -33,26 +33,27 @@ inline void gather(const BlockNodes &nodes, const CeedScalar *l, CeedScalar *blo
 }
 
 /// One component of each node. `to_write` is a constant of the builtin.
-template <bool to_write>
+template <int lanes, bool to_write>
 [[gnu::always_inline]] inline void ask_for_component(const BlockNodes &nodes, const CeedScalar *l) {
   for (CeedInt n = 0; n < nodes.num_nodes; n++) {
 #pragma GCC unroll 8
-    for (int lane = 0; lane < W; lane++) {
+    for (int lane = 0; lane < lanes; lane++) {
       __builtin_prefetch(l + nodes.offsets[lane][static_cast<CeedSize>(n) * nodes.step], to_write);
     }
   }
 }
 
 /// Components that lie next to each other share a line, mostly: one of them is asked for.
-inline void ask_for_nodes(const BlockNodes &nodes, const CeedScalar *l, bool to_write) {
+template <int lanes>
+void ask_for_nodes(const BlockNodes &nodes, const CeedScalar *l, bool to_write) {
   constexpr CeedInt line = Ahead::line / static_cast<CeedInt>(sizeof(CeedScalar));
   const CeedInt num_lines = nodes.comp_stride < line ? 1 : nodes.num_comp;
   for (CeedInt c = 0; c < num_lines; c++) {
     const CeedScalar *component = l + static_cast<CeedSize>(c) * nodes.comp_stride;
     if (to_write) {
-      ask_for_component<true>(nodes, component);
+      ask_for_component<lanes, true>(nodes, component);
     } else {
-      ask_for_component<false>(nodes, component);
+      ask_for_component<lanes, false>(nodes, component);
     }
   }
 }

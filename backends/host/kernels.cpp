@@ -3,6 +3,7 @@
 
 #include "block_copy.hpp"
 #include "contract.hpp"
+#include "contract_element.hpp"
 #include "points.hpp"
 
 #define HG_TEXT(name) #name
@@ -10,20 +11,36 @@
 
 namespace hg::host::HG_HOST_ISA {
 
-extern const Kernels table;
+extern const Kernels table, element_table;
 const Kernels table{
     .isa = HG_NAME(HG_HOST_ISA),
     .width = W,
+    .columns = 0,
     .contraction = contraction,
-    .point_evaluation = point_evaluation,
-    .point_integration = point_integration,
+    .point_evaluation = point_evaluation<W>,
+    .point_integration = point_integration<W>,
     .gather_points = gather_points,
     .scatter_add_points = scatter_add_points,
     .gather = gather,
-    .ask_for_nodes = ask_for_nodes,
+    .ask_for_nodes = ask_for_nodes<W>,
     .scatter_add = scatter_add,
     .gather_rows = gather_rows,
     .to_rows = to_rows,
+};
+const Kernels element_table{
+    .isa = HG_NAME(HG_HOST_ISA),
+    .width = 1,
+    .columns = W,
+    .contraction = element_contraction,
+    .point_evaluation = point_evaluation<1>,
+    .point_integration = point_integration<1>,
+    .gather_points = gather_points,
+    .scatter_add_points = scatter_add_points,
+    .gather = gather_element,
+    .ask_for_nodes = ask_for_nodes<1>,
+    .scatter_add = scatter_add,
+    .gather_rows = copy_row,
+    .to_rows = copy_element,
 };
 
 }  // namespace hg::host::HG_HOST_ISA

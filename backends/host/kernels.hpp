@@ -60,13 +60,15 @@ struct PointEvaluation {
 /// values, or NULL; derivatives where the kernel is one with derivatives
 using EvaluatePoints = void (*)(const PointEvaluation &evaluation, const CeedScalar *coefficients, CeedScalar *values,
                                 CeedScalar *derivatives);
-/// The transpose: coefficients are overwritten; `sums`: W num_comp K^dim numbers to work with.
+/// The transpose: coefficients are overwritten; `sums`: max_width num_comp K^dim numbers to work with.
 using IntegratePoints = void (*)(const PointEvaluation &evaluation, const CeedScalar *values,
                                  const CeedScalar *derivatives, CeedScalar *sums, CeedScalar *coefficients);
 
 struct Kernels {
   const char *isa;  ///< for people: "avx512"
-  CeedInt width;    ///< W
+  CeedInt width;    ///< W; 1: one element at a time, with SIMD within it
+  CeedInt columns;  ///< 0, or coefficients for Symmetry::none go on with B column after column, each filled up with
+                    ///< zeros to a multiple of this
 
   /// The kernel for a matrix of this shape. With a symmetry: one made for the shape, or NULL; without: for any shape.
   Contraction (*contraction)(CeedInt M, CeedInt N, Symmetry symmetry, bool add);
@@ -93,8 +95,8 @@ struct Kernels {
   void (*to_rows)(CeedSize count, const CeedScalar *block, CeedScalar *rows);
 };
 
-/// The kernels for this machine; the environment variable CEED_HOST_ISA (portable, avx2, avx512) takes another set that
-/// the machine has. NULL, with the reason, where it names none such.
-const Kernels *kernels(const char **reason);
+/// The kernels for this machine, for blocks of elements or for one at a time; the environment variable CEED_HOST_ISA
+/// (portable, avx2, avx512) takes another set that the machine has. NULL, with the reason, where it names none such.
+const Kernels *kernels(bool is_blocked, const char **reason);
 
 }  // namespace hg::host

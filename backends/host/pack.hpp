@@ -7,6 +7,8 @@
 #pragma once
 
 #include <ceed/types.h>
+
+#include <cstdint>
 #if defined(__FMA__)
 #include <immintrin.h>
 #endif
@@ -36,6 +38,30 @@ typedef Pack AliasedPack __attribute__((may_alias));
 }
 [[gnu::always_inline]] inline Pack broadcast(CeedScalar v) {
   return v - Pack{};
+}
+
+/// Which of W lanes are among the first n: all bits of a lane set, or none.
+typedef std::int64_t Mask __attribute__((vector_size(W * sizeof(std::int64_t))));
+[[gnu::always_inline]] inline Mask first_lanes(CeedInt n) {
+#if HG_HOST_WIDTH == 8
+  constexpr Mask lane = {0, 1, 2, 3, 4, 5, 6, 7};
+#elif HG_HOST_WIDTH == 4
+  constexpr Mask lane = {0, 1, 2, 3};
+#else
+  constexpr Mask lane = {0, 1};
+#endif
+  return lane < static_cast<std::int64_t>(n);
+}
+
+/// The first n of W numbers, the others 0. W numbers can be read.
+[[gnu::always_inline]] inline Pack load_some(const CeedScalar *from, CeedInt n) {
+  const Pack v = load_anywhere(from);
+  return n >= W ? v : first_lanes(n) ? v : Pack{};
+}
+
+/// Writes the first n of W numbers. W numbers can be read and written back.
+[[gnu::always_inline]] inline void store_some(CeedScalar *to, Pack v, CeedInt n) {
+  store_anywhere(to, n >= W ? v : first_lanes(n) ? v : load_anywhere(to));
 }
 
 /// a b + c, rounded once where the instruction set can. The compiler fuses nothing by itself (-ffp-contract=off), so

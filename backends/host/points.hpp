@@ -3,37 +3,11 @@
 /// whose values come by recurrence.
 #pragma once
 
-#include <cstdint>
-
 #include "ahead.hpp"
 #include "kernels.hpp"
 #include "pack.hpp"
 
 namespace hg::host::HG_HOST_ISA {
-
-/// Which of W lanes are among the first n: all bits of a lane set, or none.
-typedef std::int64_t Mask __attribute__((vector_size(W * sizeof(std::int64_t))));
-[[gnu::always_inline]] inline Mask first_lanes(CeedInt n) {
-#if HG_HOST_WIDTH == 8
-  constexpr Mask lane = {0, 1, 2, 3, 4, 5, 6, 7};
-#elif HG_HOST_WIDTH == 4
-  constexpr Mask lane = {0, 1, 2, 3};
-#else
-  constexpr Mask lane = {0, 1};
-#endif
-  return lane < static_cast<std::int64_t>(n);
-}
-
-/// The first n of W numbers, the others 0. W numbers can be read.
-[[gnu::always_inline]] inline Pack load_some(const CeedScalar *from, CeedInt n) {
-  const Pack v = load_anywhere(from);
-  return n >= W ? v : first_lanes(n) ? v : Pack{};
-}
-
-/// Writes the first n of W numbers. W numbers can be read and written back.
-[[gnu::always_inline]] inline void store_some(CeedScalar *to, Pack v, CeedInt n) {
-  store_anywhere(to, n >= W ? v : first_lanes(n) ? v : load_anywhere(to));
-}
 
 /// T_k(x) and T'_k(x), k < K:
 ///   T_(k+1) = 2 x T_k - T_(k-1),   T'_(k+1) = 2 T_k + 2 x T'_k - T'_(k-1).
@@ -69,13 +43,14 @@ struct PointTable {
   }
 };
 
+/// `lanes`: elements side by side in a block, W or 1, numbers between the coefficients of one.
 /// v = Σ c_(k2,k1,k0) T_k2(z) T_k1(y) T_k0(x) and its derivatives, W points of one element at a time.
 /// Floor of a pack, multiplications with additions: 2 K^3 + 3 K^2 + 4 K with derivatives, K^3 + K^2 + K without.
-template <int fixed_K, bool with_derivatives>
+template <int lanes, int fixed_K, bool with_derivatives>
 void evaluate_points(const PointEvaluation &e, const CeedScalar *coefficients, CeedScalar *values,
                      CeedScalar *derivatives) {
   const CeedInt K = fixed_K > 0 ? fixed_K : e.K, K1 = e.dim > 1 ? K : 1, K2 = e.dim > 2 ? K : 1;
-  const CeedSize of_component = static_cast<CeedSize>(K) * K1 * K2 * W;
+  const CeedSize of_component = static_cast<CeedSize>(K) * K1 * K2 * lanes;
   PointTable table;
   for (CeedInt first = 0; first < e.num_points; first += W) {
     const CeedInt n = e.num_points - first;
@@ -89,7 +64,7 @@ void evaluate_points(const PointEvaluation &e, const CeedScalar *coefficients, C
         for (CeedInt k1 = 0; k1 < K1; k1++) {
           Pack row{}, row_x{};
 #pragma GCC unroll 16
-          for (CeedInt k0 = 0; k0 < K; k0++, c += W) {
+          for (CeedInt k0 = 0; k0 < K; k0++, c += lanes) {
             row = fma(*c, table.T[0][k0], row);
             if constexpr (with_derivatives) row_x = fma(*c, table.dT[0][k0], row_x);
           }
@@ -118,7 +93,8 @@ void evaluate_points(const PointEvaluation &e, const CeedScalar *coefficients, C
   }
 }
 
-/// sums_k W numbers -> their sums, at to[k*W].
+/// sums_k, W numbers -> their sums, at to[k*lanes].
+template <int lanes>
 [[gnu::always_inline]] inline void reduce(const CeedScalar *sums, CeedInt count, CeedScalar *to) {
   CeedInt k = 0;
   for (; k + W <= count; k += W) {
@@ -128,12 +104,12 @@ void evaluate_points(const PointEvaluation &e, const CeedScalar *coefficients, C
     transpose(square);
 #pragma GCC unroll 8
     for (int i = 1; i < W; i++) square[0] += square[i];
-    for (int i = 0; i < W; i++) to[(k + i) * W] = square[0][i];
+    for (int i = 0; i < W; i++) to[(k + i) * lanes] = square[0][i];
   }
   for (; k < count; k++) {
     CeedScalar sum = 0;
     for (int i = 0; i < W; i++) sum += sums[k * W + i];
-    to[k * W] = sum;
+    to[k * lanes] = sum;
   }
 }
 
@@ -199,7 +175,7 @@ template <int fixed_K, bool with_derivatives, int packs>
 
 /// The transpose: c_(k2,k1,k0) = Σ over the points of v T T T + x T T T' + ...; `sums` holds W numbers for each
 /// coefficient. Two packs of points share the loads and stores of the sums, which are the limit.
-template <int fixed_K, bool with_derivatives>
+template <int lanes, int fixed_K, bool with_derivatives>
 void integrate_points(const PointEvaluation &e, const CeedScalar *values, const CeedScalar *derivatives,
                       CeedScalar *sums, CeedScalar *coefficients) {
   const CeedInt K = fixed_K > 0 ? fixed_K : e.K;
@@ -210,18 +186,19 @@ void integrate_points(const PointEvaluation &e, const CeedScalar *values, const 
     integrate_packs<fixed_K, with_derivatives, 2>(e, first, values, derivatives, sums);
   }
   if (first < e.num_points) integrate_packs<fixed_K, with_derivatives, 1>(e, first, values, derivatives, sums);
-  reduce(sums, num_coefficients, coefficients);
+  reduce<lanes>(sums, num_coefficients, coefficients);
 }
 
 /// Kernels for K = 2 ... 9, and at 0 for any K.
 inline constexpr int largest_fixed_K = 9;
+template <int lanes>
 struct PointTables {
   template <int K>
   constexpr void fill() {
-    evaluate[K][0] = evaluate_points<K, false>;
-    evaluate[K][1] = evaluate_points<K, true>;
-    integrate[K][0] = integrate_points<K, false>;
-    integrate[K][1] = integrate_points<K, true>;
+    evaluate[K][0] = evaluate_points<lanes, K, false>;
+    evaluate[K][1] = evaluate_points<lanes, K, true>;
+    integrate[K][0] = integrate_points<lanes, K, false>;
+    integrate[K][1] = integrate_points<lanes, K, true>;
     if constexpr (K < largest_fixed_K) fill<K == 0 ? 2 : K + 1>();
   }
   constexpr PointTables() { fill<0>(); }
@@ -229,15 +206,18 @@ struct PointTables {
   EvaluatePoints evaluate[largest_fixed_K + 1][2] = {};
   IntegratePoints integrate[largest_fixed_K + 1][2] = {};
 };
-inline constexpr PointTables point_tables;
+template <int lanes>
+inline constexpr PointTables<lanes> point_tables;
 
-inline EvaluatePoints point_evaluation(CeedInt K, bool with_derivatives) {
+template <int lanes>
+EvaluatePoints point_evaluation(CeedInt K, bool with_derivatives) {
   if (K > most_coefficients) return nullptr;
-  return point_tables.evaluate[K >= 2 && K <= largest_fixed_K ? K : 0][with_derivatives];
+  return point_tables<lanes>.evaluate[K >= 2 && K <= largest_fixed_K ? K : 0][with_derivatives];
 }
-inline IntegratePoints point_integration(CeedInt K, bool with_derivatives) {
+template <int lanes>
+IntegratePoints point_integration(CeedInt K, bool with_derivatives) {
   if (K > most_coefficients) return nullptr;
-  return point_tables.integrate[K >= 2 && K <= largest_fixed_K ? K : 0][with_derivatives];
+  return point_tables<lanes>.integrate[K >= 2 && K <= largest_fixed_K ? K : 0][with_derivatives];
 }
 
 #if HG_HOST_WIDTH >= 4

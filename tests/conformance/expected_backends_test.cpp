@@ -12,6 +12,7 @@ const char *const required[] = {
     "/cpu/self/ref/serial",
     "/cpu/self/memcheck/serial",
     "/cpu/self/avx/blocked",
+    "/cpu/self/avx/serial",
 };
 
 TEST(ExpectedBackends, AreListedAndOpen) {
