@@ -112,90 +112,84 @@ TEST(Avx, RepeatsItselfAtPoints) {
   }
 }
 
-std::vector<std::size_t> *calls = nullptr;
-int count_points(void *, const CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
-  calls->push_back(static_cast<std::size_t>(Q));
-  for (CeedInt q = 0; q < Q; q++) out[0][q] = in[0][q];
+/// Elements on a line, none of which touch, with 3 Gauss points each; v = B^T f(B u, w).
+struct LineOperator {
+  LineOperator(Ceed ceed, CeedInt num_elem, CeedInt vec_length, CeedQFunctionUser f)
+      : u(make_vector(ceed, Values(2 * num_elem, 1.0))), v(make_vector(ceed, Values(2 * num_elem, 0.0))) {
+    std::vector<CeedInt> offsets;
+    for (CeedInt i = 0; i < 2 * num_elem; i++) offsets.push_back(i);
+    ok(CeedQFunctionCreateInterior(ceed, vec_length, f, "nowhere.h:f", qf.out()));
+    ok(CeedQFunctionAddInput(qf, "u", 1, CEED_EVAL_INTERP));
+    ok(CeedQFunctionAddInput(qf, "w", 1, CEED_EVAL_WEIGHT));
+    ok(CeedQFunctionAddOutput(qf, "v", 1, CEED_EVAL_INTERP));
+    ok(CeedElemRestrictionCreate(ceed, num_elem, 2, 1, 1, 2 * num_elem, CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(),
+                                 rstr.out()));
+    ok(CeedBasisCreateTensorH1Lagrange(ceed, 1, 1, 2, 3, CEED_GAUSS, basis.out()));
+    ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
+    ok(CeedOperatorSetField(op, "u", rstr, basis, CEED_VECTOR_ACTIVE));
+    ok(CeedOperatorSetField(op, "w", CEED_ELEMRESTRICTION_NONE, basis, CEED_VECTOR_NONE));
+    ok(CeedOperatorSetField(op, "v", rstr, basis, CEED_VECTOR_ACTIVE));
+  }
+  int apply() const { return CeedOperatorApply(op, u, v, CEED_REQUEST_IMMEDIATE); }
+  /// The mass of a function that is 1: each of an element's two basis functions has the integral 1 on [-1,1].
+  void expect_mass() const {
+    for (const CeedScalar value : values_of(v)) EXPECT_NEAR(value, 1.0, 1e-14);
+  }
+
+  QFunction qf;
+  Restriction rstr;
+  Basis basis;
+  Operator op;
+  Vector u, v;
+};
+
+std::vector<CeedInt> calls;   ///< points of each call
+int calls_until_failure = 0;  ///< not positive: none fails
+int weigh(void *, const CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
+  if (--calls_until_failure == 0) return 1;
+  calls.push_back(Q);
+  for (CeedInt q = 0; q < Q; q++) out[0][q] = in[0][q] * in[1][q];
   return 0;
 }
 
 /// Whoever counts or sums in a QFunction sees each point once, whatever the number of elements.
 TEST(Avx, CallsTheFunctionOnceForEachPoint) {
   const CeedHandle ceed{open(blocked)};
-  constexpr CeedInt Q = 3;
   for (const CeedInt vec_length : {1, 2}) {
     for (CeedInt num_elem = 1; num_elem <= 19; num_elem++) {
-      QFunction qf;
-      Restriction rstr;
-      Basis basis;
-      Operator op;
-      std::vector<CeedInt> offsets;
-      for (CeedInt i = 0; i < 2 * num_elem; i++) offsets.push_back(i);
-      ok(CeedQFunctionCreateInterior(ceed, vec_length, count_points, "nowhere.h:count_points", qf.out()));
-      ok(CeedQFunctionAddInput(qf, "u", 1, CEED_EVAL_INTERP));
-      ok(CeedQFunctionAddOutput(qf, "v", 1, CEED_EVAL_INTERP));
-      ok(CeedElemRestrictionCreate(ceed, num_elem, 2, 1, 1, 2 * num_elem, CEED_MEM_HOST, CEED_COPY_VALUES,
-                                   offsets.data(), rstr.out()));
-      ok(CeedBasisCreateTensorH1Lagrange(ceed, 1, 1, 2, Q, CEED_GAUSS, basis.out()));
-      ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
-      ok(CeedOperatorSetField(op, "u", rstr, basis, CEED_VECTOR_ACTIVE));
-      ok(CeedOperatorSetField(op, "v", rstr, basis, CEED_VECTOR_ACTIVE));
-      const Vector u = make_vector(ceed, Values(2 * num_elem, 1.0)), v = make_vector(ceed, Values(2 * num_elem, 0.0));
-      std::vector<std::size_t> sizes;
-      calls = &sizes;
-      ok(CeedOperatorApply(op, u, v, CEED_REQUEST_IMMEDIATE));
-      std::size_t total = 0;
-      for (const std::size_t size : sizes) {
-        EXPECT_EQ(size % static_cast<std::size_t>(vec_length), 0u);
+      SCOPED_TRACE(std::to_string(num_elem) + " elements, vec_length " + std::to_string(vec_length));
+      const LineOperator line(ceed, num_elem, vec_length, weigh);
+      calls.clear();
+      calls_until_failure = 0;
+      ok(line.apply());
+      line.expect_mass();
+      CeedInt total = 0;
+      for (const CeedInt size : calls) {
+        EXPECT_EQ(size % vec_length, 0);
         total += size;
       }
-      const auto points = static_cast<std::size_t>(num_elem * Q), length = static_cast<std::size_t>(vec_length);
-      EXPECT_EQ(total, (points + length - 1) / length * length) << num_elem << " elements, vec_length " << vec_length;
+      EXPECT_EQ(total, (3 * num_elem + vec_length - 1) / vec_length * vec_length);
     }
   }
-}
-
-int calls_until_failure = 0;
-int weigh_or_fail(void *, const CeedInt Q, const CeedScalar *const *in, CeedScalar *const *out) {
-  if (--calls_until_failure == 0) return 1;
-  for (CeedInt q = 0; q < Q; q++) out[0][q] = in[0][q] * in[1][q];
-  return 0;
 }
 
 /// A solver that gets an error tries again with a smaller step, on the same operator.
 TEST(Avx, IsRightAfterAFunctionThatFailed) {
   const CeedHandle ceed{open(blocked)};
-  constexpr CeedInt Q = 3;
   for (const CeedInt num_elem : {3, 8, 19}) {
-    QFunction qf;
-    Restriction rstr;
-    Basis basis;
-    Operator op;
-    std::vector<CeedInt> offsets;
-    for (CeedInt i = 0; i < 2 * num_elem; i++) offsets.push_back(i);
-    ok(CeedQFunctionCreateInterior(ceed, 1, weigh_or_fail, "nowhere.h:weigh_or_fail", qf.out()));
-    ok(CeedQFunctionAddInput(qf, "u", 1, CEED_EVAL_INTERP));
-    ok(CeedQFunctionAddInput(qf, "w", 1, CEED_EVAL_WEIGHT));
-    ok(CeedQFunctionAddOutput(qf, "v", 1, CEED_EVAL_INTERP));
-    ok(CeedElemRestrictionCreate(ceed, num_elem, 2, 1, 1, 2 * num_elem, CEED_MEM_HOST, CEED_COPY_VALUES, offsets.data(),
-                                 rstr.out()));
-    ok(CeedBasisCreateTensorH1Lagrange(ceed, 1, 1, 2, Q, CEED_GAUSS, basis.out()));
-    ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
-    ok(CeedOperatorSetField(op, "u", rstr, basis, CEED_VECTOR_ACTIVE));
-    ok(CeedOperatorSetField(op, "w", CEED_ELEMRESTRICTION_NONE, basis, CEED_VECTOR_NONE));
-    ok(CeedOperatorSetField(op, "v", rstr, basis, CEED_VECTOR_ACTIVE));
-    const Vector u = make_vector(ceed, Values(2 * num_elem, 1.0)), v = make_vector(ceed, Values(2 * num_elem, 0.0));
-    for (int failing = 1; failing <= 10; failing++) {
+    SCOPED_TRACE(std::to_string(num_elem) + " elements");
+    const LineOperator line(ceed, num_elem, 1, weigh);
+    calls.clear();
+    calls_until_failure = 0;
+    ok(line.apply());
+    const int num_calls = static_cast<int>(calls.size());
+    for (int failing = 1; failing <= num_calls; failing++) {
       calls_until_failure = failing;
-      const int code = CeedOperatorApply(op, u, v, CEED_REQUEST_IMMEDIATE);
-      if (calls_until_failure > 0) break;  // it was never called so often
-      EXPECT_EQ(code, CEED_ERROR_BACKEND);
+      EXPECT_EQ(line.apply(), CEED_ERROR_BACKEND) << "call " << failing;
       calls_until_failure = 0;
-      ok(CeedOperatorApply(op, u, v, CEED_REQUEST_IMMEDIATE));
-      // Each of two functions has the integral 1 on [-1,1].
-      for (const CeedScalar value : values_of(v)) EXPECT_NEAR(value, 1.0, 1e-14) << num_elem << " elements";
+      ok(line.apply());
+      line.expect_mass();
     }
-    EXPECT_LT(calls_until_failure, 100);
   }
 }
 
