@@ -51,7 +51,7 @@ void run_calls(Random &bytes) {
 /// Calls on a right operator, which stays right while none of them has changed it.
 void run_calls_on_operator(Random &bytes) {
   const Case c = small_case(bytes);
-  const CeedHandle ceed(open((bytes.next_byte() & 1) != 0 ? "/cpu/self/memcheck/serial" : "/cpu/self/ref/serial"));
+  const CeedHandle ceed(open(backend_of(bytes.next_byte())));
   const auto instance = std::make_unique<Instance>(ceed, c);
   Objects objects(bytes);
   objects.take_in(*instance);
@@ -62,6 +62,12 @@ void run_calls_on_operator(Random &bytes) {
 }
 
 }  // namespace
+
+const char *backend_of(std::uint8_t byte) {
+  static const char *const resources[] = {"/cpu/self/ref/serial", "/cpu/self/memcheck/serial", "/cpu/self/avx/blocked",
+                                          "/cpu/self/avx/serial"};
+  return resources[byte % std::size(resources)];
+}
 
 void run_graph(std::span<const std::uint8_t> data) {
   testing::FLAGS_gtest_throw_on_failure = true;

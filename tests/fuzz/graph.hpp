@@ -19,6 +19,9 @@ struct Defect : std::runtime_error {
 /// Runs the program that the bytes mean; any bytes mean one, and its sizes are bounded. Throws Defect.
 void run_graph(std::span<const std::uint8_t> bytes);
 
+/// The backend that a byte chooses: ref, memcheck, or avx in blocks or one element at a time.
+const char *backend_of(std::uint8_t byte);
+
 /// Print each call and what it returns, for a look at one program.
 extern bool prints_calls;
 

@@ -19,7 +19,7 @@ FILE *nowhere() {
 
 Objects::Objects(Random &random) : bytes(random), stream_(nowhere()) {
   ceeds_[0] = open("/cpu/self/ref/serial");
-  ceeds_[1] = open((bytes.next_byte() & 1) != 0 ? "/cpu/self/memcheck/serial" : "/cpu/self/ref/serial");
+  ceeds_[1] = open(backend_of(bytes.next_byte()));
 }
 
 Objects::~Objects() {

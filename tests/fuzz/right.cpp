@@ -140,10 +140,9 @@ void expect_action(const Instance &instance, const Case &c) {
 
 void run_right(Random &bytes) {
   const std::uint8_t checks = bytes.next_byte();
-  const bool is_memcheck = (checks & 64) != 0;
   const Case c = small_case(bytes);
   if (work(c) > 40000) return;
-  const CeedHandle ceed(open(is_memcheck ? "/cpu/self/memcheck/serial" : "/cpu/self/ref/serial"));
+  const CeedHandle ceed(open(backend_of(checks >> 6)));
   {
     const Instance instance(ceed, c);
     if ((checks & 1) == 0) expect_action(instance, c);
@@ -171,7 +170,7 @@ void run_assembled(Random &bytes) {
   wishes.max_comp = 2;
   wishes.max_active_spaces = 2;
   const Layout layout = random_layout(bytes, wishes);
-  const CeedHandle ceed(open("/cpu/self/ref/serial"));
+  const CeedHandle ceed(open(backend_of(flags >> 6)));
   std::deque<RandomOperator> parts;
   const int num_parts = 1 + (flags >> 4 & 1);
   for (int i = 0; i < num_parts; i++) {
