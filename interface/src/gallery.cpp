@@ -41,12 +41,15 @@ int init(Ceed ceed, const char *name, CeedQFunction qf) {
 }  // namespace
 
 int CeedQFunctionRegisterAll(void) {
-  static std::once_flag once;
+  static std::mutex mutex;
+  static bool is_done = false;
   return hg::guard(nullptr, [] {
-    std::call_once(once, [] {
-      for (const HgGalleryEntry *entry = hg_gallery; entry->name != nullptr; entry++) {
-        hg::check(CeedQFunctionRegister(entry->name, entry->source, 1, entry->function, init));
-      }
-    });
+    // Not std::call_once(): what was thrown in it hangs the next call under the thread sanitizer.
+    const std::scoped_lock lock(mutex);
+    if (is_done) return;
+    for (const HgGalleryEntry *entry = hg_gallery; entry->name != nullptr; entry++) {
+      hg::check(CeedQFunctionRegister(entry->name, entry->source, 1, entry->function, init));
+    }
+    is_done = true;
   });
 }
