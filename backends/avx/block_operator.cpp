@@ -83,9 +83,7 @@ void BlockOperator::place_inputs(const CeedProgram &program) {
       if (place < 0) place = arena_.add(size);
       input_arrays_.push_back(place);
       Side &source = sources_[field.side];
-      if (source.block < 0) {
-        source.block = arena_.add(static_cast<std::size_t>(source.map.num_nodes()) * source.map.num_comp() * W_);
-      }
+      if (source.block < 0) source.block = arena_.add(source.map.block_size());
     }
   }
 }
@@ -101,15 +99,14 @@ void BlockOperator::place_outputs(const CeedProgram &program) {
     evaluation_of(integrations_, field, false).array_of(field) = output_arrays_.back();
     Side &sink = sinks_[field.side];
     if (sink.block < 0) {
-      sink.block = arena_.add(static_cast<std::size_t>(sink.map.num_nodes()) * sink.map.num_comp() * W_);
+      sink.block = arena_.add(sink.map.block_size());
       add_result(field.side, sink.block);
     }
   }
 }
 
 void BlockOperator::add_result(CeedInt side, int array) {
-  const auto &map = sinks_[side].map;
-  results_.push_back({side, array, arena_.add(static_cast<std::size_t>(map.num_nodes()) * map.num_comp() * W_)});
+  results_.push_back({side, array, arena_.add(sinks_[side].map.block_size())});
 }
 
 /// What is stored at the points streams by once: the largest such source of the next block is asked for while this one

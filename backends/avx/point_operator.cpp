@@ -83,7 +83,7 @@ int PointOperator::add_values(CeedInt size) {
 /// Room for a side's nodes; false where there was.
 bool PointOperator::add_nodes(Side &side) {
   if (side.block >= 0) return false;
-  side.block = arena_.add(static_cast<std::size_t>(side.nodes->num_nodes()) * side.num_comp * W_);
+  side.block = arena_.add(side.nodes->block_size());
   return true;
 }
 
@@ -112,8 +112,7 @@ void PointOperator::place_outputs(const CeedProgram &program) {
       evaluation_of(integrations_, field, false).array_of(field) = output_arrays_.back();
       if (add_nodes(sinks_[field.side])) {
         const Side &sink = sinks_[field.side];
-        const std::size_t size = static_cast<std::size_t>(sink.nodes->num_nodes()) * sink.num_comp * W_;
-        results_.push_back({field.side, sink.block, arena_.add(size)});
+        results_.push_back({field.side, sink.block, arena_.add(sink.nodes->block_size())});
       }
     }
   }

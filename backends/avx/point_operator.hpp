@@ -16,9 +16,9 @@ namespace hg::avx {
 
 /// v = Σ_e R_e^T B^T D(B R_e u) with B at points: nodes are gathered and turned into Chebyshev coefficients for W
 /// elements side by side; each element's points are evaluated W at a time; the QFunction is called for the points of
-/// all W elements at once, each point once. Elements may have any number of points, none too. Made from the operator's
-/// program, and again when points are set again: that takes a look at the number of points of each element and
-/// allocates what a block needs. One thread at a time.
+/// all W elements at once, each point once (but for those that fill up its vector length). Elements may have any number
+/// of points, none too. Made from the operator's program; when points are set again its bases are kept, and the rest,
+/// a look at the number of points of each element and the arrays of a block, is made anew. One thread at a time.
 ///
 /// Memory: W numbers for each node and coefficient of a field, and one for each point of W elements and value of a
 /// field. Floor of an application, bytes for each point: 8 dim (reference coordinates), 4 (its place), 8 for each

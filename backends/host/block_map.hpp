@@ -16,8 +16,10 @@ class BlockMap {
  public:
   BlockMap(const Kernels &kernels, CeedElemRestriction rstr);
 
-  CeedInt num_nodes() const { return map_->elem_size; }
-  CeedInt num_comp() const { return map_->num_comp; }
+  /// Numbers of a block's array.
+  std::size_t block_size() const {
+    return static_cast<std::size_t>(map_->elem_size) * map_->num_comp * kernels_->width;
+  }
   /// Numbers of an element that fill the L-vector, element after element: those of a strided restriction; 0 for others.
   CeedSize stored_size() const {
     const CeedSize size = static_cast<CeedSize>(map_->elem_size) * map_->num_comp;
@@ -36,9 +38,6 @@ class BlockMap {
                    CeedScalar *l) const;
 
  private:
-  std::size_t block_size() const {
-    return static_cast<std::size_t>(map_->elem_size) * map_->num_comp * kernels_->width;
-  }
   BlockNodes nodes(CeedInt first, CeedInt num_elem) const;
   template <typename Visit>
   void for_each_run(Visit &&visit) const;

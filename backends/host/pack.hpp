@@ -1,6 +1,7 @@
 /// @file
 /// Numbers side by side. This file and those that include it are the kernels' text: it is compiled once for each
-/// instruction set, in a namespace of its own, and includes no header of C++, whose functions the linker would merge.
+/// instruction set, in a namespace of its own, and includes no header with functions of C++, which the linker would
+/// merge.
 ///
 /// HG_HOST_ISA   the namespace: portable, avx2, avx512
 /// HG_HOST_WIDTH W, the numbers of a pack
