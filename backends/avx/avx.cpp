@@ -1,10 +1,7 @@
 /// SIMD backends that need no compiler on the user's machine: the instruction set is chosen at run time.
-#include <memory>
 #include <stdexcept>
-#include <variant>
 
-#include "block_operator.hpp"
-#include "point_operator.hpp"
+#include "../host/operator.hpp"
 
 namespace hg::avx {
 
@@ -13,19 +10,11 @@ namespace {
 /// The tables of the reference, which does what is not taken here.
 CeedBackendOps parents_tables;
 
-using AnyOperator = std::variant<BlockOperator, PointOperator>;
-
 /// NULL where it is the parent's.
-AnyOperator *operator_of(CeedOperator op) {
-  AnyOperator *any = nullptr;
-  host::chk(CeedOperatorGetData(op, &any));
-  return any;
-}
-
-std::unique_ptr<AnyOperator> make(const host::Kernels &kernels, const CeedProgram &program) {
-  if (PointOperator::takes(kernels, program)) return std::make_unique<AnyOperator>(PointOperator(kernels, program));
-  if (BlockOperator::takes(kernels, program)) return std::make_unique<AnyOperator>(BlockOperator(kernels, program));
-  return nullptr;
+host::Operator *operator_of(CeedOperator op) {
+  host::Operator *own = nullptr;
+  host::chk(CeedOperatorGetData(op, &own));
+  return own;
 }
 
 template <bool is_blocked>
@@ -34,9 +23,9 @@ int create(CeedOperator op, const CeedProgram *program) {
     const char *reason = "";
     const host::Kernels *kernels = host::kernels(is_blocked, &reason);
     if (kernels == nullptr) throw std::runtime_error(reason);
-    auto any = make(*kernels, *program);
-    host::chk(CeedOperatorSetData(op, any.get()));
-    any.release();
+    auto own = host::Operator::make(*kernels, *program);
+    host::chk(CeedOperatorSetData(op, own.get()));
+    own.release();
   });
 }
 
@@ -47,34 +36,23 @@ int destroy(CeedOperator op) {
   });
 }
 
-/// Calls f(operator), or f(nullptr) where it is the parent's; one at points first follows them where they have moved.
-template <typename F>
-int visit(CeedOperator op, const CeedProgram &program, F &&f) {
-  return host::wall(CeedOperatorReturnCeed(op), [&] {
-    AnyOperator *any = operator_of(op);
-    if (any == nullptr) return f(static_cast<BlockOperator *>(nullptr));
-    if (auto *at_points = std::get_if<PointOperator>(any)) {
-      if (at_points->points_epoch() != program.points_epoch) {
-        *any = at_points->followed(program);
-      }
-    }
-    std::visit([&](auto &own) { f(&own); }, *any);
-  });
-}
-
 int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
-  return visit(op, *program, [&](auto *own) {
+  return host::wall(CeedOperatorReturnCeed(op), [&] {
+    host::Operator *own = operator_of(op);
     if (own == nullptr) return host::chk(parents_tables.op.apply_add(op, program, in, out, mode));
+    own->follow(*program);
     own->apply_add(*program, in, out, mode);
   });
 }
 
 int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedInt first_elem, CeedInt num_elem,
                               CeedVector values) {
-  return visit(op, *program, [&](auto *own) {
+  return host::wall(CeedOperatorReturnCeed(op), [&] {
+    host::Operator *own = operator_of(op);
     if (own == nullptr) {
       return host::chk(parents_tables.op.linear_assemble_qfunction(op, program, first_elem, num_elem, values));
     }
+    own->follow(*program);
     own->linear_assemble_qfunction(*program, first_elem, num_elem, values);
   });
 }

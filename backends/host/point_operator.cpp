@@ -3,29 +3,26 @@
 #include <algorithm>
 #include <utility>
 
-namespace hg::avx {
+namespace hg::host {
 
-using host::chk, host::ContextData, host::for_each_active, host::Writer;
-
-bool PointOperator::takes(const host::Kernels &kernels, const CeedProgram &program) {
+bool PointOperator::takes(const Kernels &kernels, const CeedProgram &program) {
   bool takes_all = program.at_points;
   for (CeedInt i = 0; takes_all && i < program.num_spaces; i++) {
     if (program.spaces[i].rstr != CEED_ELEMRESTRICTION_NONE) {
-      takes_all = host::PointBasis::takes(kernels, program.spaces[i].basis);
+      takes_all = PointBasis::takes(kernels, program.spaces[i].basis);
     }
   }
   return takes_all;
 }
 
-PointOperator::PointOperator(const host::Kernels &kernels, const CeedProgram &program)
+PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program)
     : PointOperator(kernels, program, {}) {}
 
 PointOperator PointOperator::followed(const CeedProgram &program) const {
   return PointOperator(*kernels_, program, bases_);
 }
 
-PointOperator::PointOperator(const host::Kernels &kernels, const CeedProgram &program,
-                             std::vector<host::PointBasis> bases)
+PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program, std::vector<PointBasis> bases)
     : kernels_(&kernels), W_(kernels.width), points_epoch_(program.points_epoch), bases_(std::move(bases)) {
   chk(CeedQFunctionGetUserFunction(program.qf, &function_));
   chk(CeedQFunctionGetVectorLength(program.qf, &vec_length_));
@@ -54,7 +51,7 @@ PointOperator::PointOperator(const host::Kernels &kernels, const CeedProgram &pr
   }
   x_ref_ = add_values(dim_);
   coefficients_ = arena_.add(coefficients * W_);
-  sums_ = arena_.add(coefficients * host::max_width);  // of points side by side
+  sums_ = arena_.add(coefficients * max_width);  // of points side by side
   work_ = arena_.add(work);
   arena_.allocate();
   for (CeedInt i = 0; i < program.num_inputs; i++) {
@@ -65,19 +62,19 @@ PointOperator::PointOperator(const host::Kernels &kernels, const CeedProgram &pr
   for (const int array : output_arrays_) out_.push_back(arena_[array]);
 }
 
-PointOperator::Side PointOperator::make_side(const host::Kernels &kernels, const CeedProgramSide &side) const {
+PointOperator::Side PointOperator::make_side(const Kernels &kernels, const CeedProgramSide &side) const {
   Side made{.points = nullptr, .nodes = nullptr, .block = -1, .num_comp = side.num_comp, .is_active = side.is_active};
   if (side.is_points) {
     chk(CeedElemRestrictionGetElementMap(side.rstr, &made.points));
   } else {
-    made.nodes = std::make_unique<host::BlockMap>(kernels, side.rstr);
+    made.nodes = std::make_unique<BlockMap>(kernels, side.rstr);
   }
   return made;
 }
 
 /// Room for `size` values at each point of a block; kernels read W points at a time, beyond the last one too.
 int PointOperator::add_values(CeedInt size) {
-  return arena_.add(static_cast<std::size_t>(size) * most_points_ + host::max_width);
+  return arena_.add(static_cast<std::size_t>(size) * most_points_ + max_width);
 }
 
 /// Room for a side's nodes; false where there was.
@@ -124,17 +121,16 @@ PointOperator::Block PointOperator::block(CeedInt first, CeedInt num_elem) const
 }
 
 /// Where the evaluation of a block begins: at its first element, without points yet.
-host::PointEvaluation PointOperator::evaluation(const Block &block, const host::PointBasis &basis,
-                                                host::Ahead &ahead) const {
+PointEvaluation PointOperator::evaluation(const Block &block, const PointBasis &basis, Ahead &ahead) const {
   return {basis.dim(), basis.K(), basis.num_comp(), 0, arena_[x_ref_], block.stride, &ahead};
 }
 
 /// What an L-vector at points holds for the next block, taken to have as many points as this one and to lie together,
 /// as it does where points are sorted by element. Elsewhere the lines that are asked for are not the right ones.
-host::Ahead PointOperator::ask_for(const Block &block, const CeedElementMap &map, const CeedScalar *l) const {
+Ahead PointOperator::ask_for(const Block &block, const CeedElementMap &map, const CeedScalar *l) const {
   const CeedInt next = block.first + W_;
   if (next >= map.num_elem || num_points(next) == 0) return {};
-  constexpr CeedSize line = host::Ahead::line / static_cast<CeedSize>(sizeof(CeedScalar));
+  constexpr CeedSize line = Ahead::line / static_cast<CeedSize>(sizeof(CeedScalar));
   CeedSize steps = 0;
   for (CeedInt lane = 0; lane < block.num_elem; lane++) steps += (num_points(block.first + lane) + W_ - 1) / W_;
   const CeedSize lines = static_cast<CeedSize>(block.num_points) * map.num_comp / line + 1;
@@ -162,12 +158,12 @@ void PointOperator::read(const Block &block, const CeedScalar *x_ref, const std:
     if (sources[s] == nullptr || sources_[s].block < 0) continue;
     sources_[s].nodes->gather(block.first, block.num_elem, sources[s], arena_[sources_[s].block], work);
   }
-  host::Ahead ahead = ask_for(block, *points_, x_ref);
+  Ahead ahead = ask_for(block, *points_, x_ref);
   for (const Evaluation &e : evaluations_) {
     if (sources[e.side] == nullptr) continue;
-    const host::PointBasis &basis = this->basis(e.space);
+    const PointBasis &basis = this->basis(e.space);
     basis.to_coefficients(arena_[sources_[e.side].block], coefficients, work);
-    host::PointEvaluation at = evaluation(block, basis, ahead);
+    PointEvaluation at = evaluation(block, basis, ahead);
     CeedInt point = 0;
     for (CeedInt lane = 0; lane < block.num_elem; lane++, point += at.num_points, at.x_ref += at.num_points) {
       at.num_points = num_points(block.first + lane);
@@ -197,11 +193,11 @@ void PointOperator::pad(const Block &block, CeedInt size, CeedScalar *values) co
 void PointOperator::write(const Block &block, const std::vector<const CeedScalar *> &sources,
                           const std::vector<CeedScalar *> &sinks) {
   CeedScalar *work = arena_[work_], *coefficients = arena_[coefficients_];
-  host::Ahead ahead;
+  Ahead ahead;
   if (largest_source_ >= 0) ahead = ask_for(block, *sources_[largest_source_].points, sources[largest_source_]);
   for (const Evaluation &e : integrations_) {
-    const host::PointBasis &basis = this->basis(e.space);
-    host::PointEvaluation at = evaluation(block, basis, ahead);
+    const PointBasis &basis = this->basis(e.space);
+    PointEvaluation at = evaluation(block, basis, ahead);
     if (block.num_elem < W_) std::fill_n(coefficients, basis.num_coefficients() * W_, 0.0);
     CeedInt point = 0;
     for (CeedInt lane = 0; lane < block.num_elem; lane++, point += at.num_points, at.x_ref += at.num_points) {
@@ -229,7 +225,7 @@ void PointOperator::write(const Block &block, const std::vector<const CeedScalar
 }
 
 void PointOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
-  host::ProgramArrays arrays(program, in, out, mode);
+  ProgramArrays arrays(program, in, out, mode);
   ContextData context(program.qf);
   for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
     const Block block = this->block(first, num_elem);
@@ -243,13 +239,13 @@ void PointOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVec
 }
 
 void PointOperator::call(const CeedProgram &program, const Block &block, void *context) {
-  host::check_returned(program, function_(context, block.stride, in_.data(), out_.data()), block.first, block.num_elem);
+  check_returned(program, function_(context, block.stride, in_.data(), out_.data()), block.first, block.num_elem);
 }
 
 /// Column by column: the QFunction of a unit value of each active input, all others zero.
 void PointOperator::linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem,
                                               CeedVector values) {
-  host::ProgramArrays arrays(program);
+  ProgramArrays arrays(program);
   Writer assembled(values, Writer::write_only);
   ContextData context(program.qf);
   const CeedInt num_out = program.num_active_out;
@@ -279,4 +275,4 @@ void PointOperator::linear_assemble_qfunction(const CeedProgram &program, CeedIn
   arrays.release();
 }
 
-}  // namespace hg::avx
+}  // namespace hg::host

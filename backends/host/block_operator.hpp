@@ -6,12 +6,12 @@
 
 #include <vector>
 
-#include "../host/access.hpp"
-#include "../host/block_basis.hpp"
-#include "../host/block_map.hpp"
+#include "access.hpp"
+#include "block_basis.hpp"
+#include "block_map.hpp"
 #include "fields.hpp"
 
-namespace hg::avx {
+namespace hg::host {
 
 /// v = Σ_e R_e^T B^T D(B R_e u) as a loop over blocks of elements, made once from the operator's program: gather,
 /// evaluate, call the QFunction at W Q points, integrate, scatter. Point q of lane l is the QFunction's point q W + l.
@@ -24,8 +24,8 @@ class BlockOperator {
  public:
   /// Whether a program can be taken: at quadrature points, and W Q points are a multiple of the QFunction's vector
   /// length.
-  static bool takes(const host::Kernels &kernels, const CeedProgram &program);
-  BlockOperator(const host::Kernels &kernels, const CeedProgram &program);
+  static bool takes(const Kernels &kernels, const CeedProgram &program);
+  BlockOperator(const Kernels &kernels, const CeedProgram &program);
 
   /// As CeedOperatorOps::apply_add().
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
@@ -34,7 +34,7 @@ class BlockOperator {
 
  private:
   struct Side {
-    host::BlockMap map;
+    BlockMap map;
     int block = -1;  ///< its nodes' values, where a basis wants them
     bool is_active;
   };
@@ -49,21 +49,21 @@ class BlockOperator {
   void fill_weights(const CeedProgram &program);
   void plan_ahead();
   void ask_for_block(CeedSize first, const std::vector<const CeedScalar *> &sources);
-  void ask_for_nodes(CeedInt first, CeedInt num_elem, CeedInt end, const host::ProgramArrays &arrays) const;
+  void ask_for_nodes(CeedInt first, CeedInt num_elem, CeedInt end, const ProgramArrays &arrays) const;
   void evaluate(const std::vector<const CeedScalar *> &sources);
   void integrate();
   void narrow(CeedInt n, CeedInt stride, CeedInt size, CeedScalar *values) const;
   void widen(CeedInt n, CeedInt stride, CeedInt size, CeedScalar *values) const;
-  const host::BlockBasis &basis(CeedInt space) const { return bases_[basis_of_space_[space]]; }
+  const BlockBasis &basis(CeedInt space) const { return bases_[basis_of_space_[space]]; }
   void read(CeedInt first, CeedInt num_elem, const std::vector<const CeedScalar *> &sources);
   void call(const CeedProgram &program, CeedInt first, CeedInt num_elem, void *context);
   void write(CeedInt first, CeedInt num_elem, const std::vector<CeedScalar *> &sinks);
 
-  const host::Kernels *kernels_;
+  const Kernels *kernels_;
   CeedInt W_, Q_, vec_length_ = 1;
   CeedQFunctionUser function_ = nullptr;
   std::vector<Side> sources_, sinks_;
-  std::vector<host::BlockBasis> bases_;
+  std::vector<BlockBasis> bases_;
   std::vector<CeedInt> basis_of_space_;  ///< index in bases_
   std::vector<Evaluation> evaluations_, integrations_;
   std::vector<Copy> copies_in_;
@@ -71,11 +71,11 @@ class BlockOperator {
   std::vector<int> input_arrays_, output_arrays_;         ///< of the QFunction's fields
   std::vector<PointArray> input_values_, output_values_;  ///< each array once
   int work_ = -1;
-  host::Ahead ahead_;
+  Ahead ahead_;
   CeedInt ahead_source_ = -1;
   Arena arena_;
   std::vector<const CeedScalar *> in_;
   std::vector<CeedScalar *> out_;
 };
 
-}  // namespace hg::avx
+}  // namespace hg::host

@@ -9,11 +9,11 @@
 #include <new>
 #include <vector>
 
-#include "../host/access.hpp"
-#include "../host/kernels.hpp"
-#include "../host/memory.hpp"
+#include "access.hpp"
+#include "kernels.hpp"
+#include "memory.hpp"
 
-namespace hg::avx {
+namespace hg::host {
 
 /// Arrays in one piece of memory: all are added, then there is memory for them, filled with zeros.
 class Arena {
@@ -26,8 +26,8 @@ class Arena {
     return static_cast<int>(starts_.size()) - 1;
   }
   void allocate() {
-    const std::size_t length = length_ + host::max_width;  // kernels read a pack beyond the last number
-    memory_ = host::allocate_array(length);
+    const std::size_t length = length_ + max_width;  // kernels read a pack beyond the last number
+    memory_ = allocate_array(length);
     if (!memory_) throw std::bad_alloc();
     std::fill_n(memory_.get(), length, 0.0);
   }
@@ -37,7 +37,7 @@ class Arena {
  private:
   std::vector<std::size_t> starts_;
   std::size_t length_ = 0;
-  host::Array memory_;
+  Array memory_;
 };
 
 /// Fields of one side and space: evaluated, or integrated, together. Arrays are indices in an Arena, or -1.
@@ -92,4 +92,4 @@ void for_blocks(CeedInt begin, CeedInt end, CeedInt W, Visit &&visit) {
   }
 }
 
-}  // namespace hg::avx
+}  // namespace hg::host

@@ -2,25 +2,23 @@
 
 #include <algorithm>
 
-namespace hg::avx {
+namespace hg::host {
 
-using host::chk, host::ContextData, host::for_each_active, host::Writer;
-
-bool BlockOperator::takes(const host::Kernels &kernels, const CeedProgram &program) {
+bool BlockOperator::takes(const Kernels &kernels, const CeedProgram &program) {
   CeedInt vec_length = 1;
   chk(CeedQFunctionGetVectorLength(program.qf, &vec_length));
   return !program.at_points && static_cast<CeedSize>(program.num_qpts) * kernels.width % vec_length == 0;
 }
 
-BlockOperator::BlockOperator(const host::Kernels &kernels, const CeedProgram &program)
+BlockOperator::BlockOperator(const Kernels &kernels, const CeedProgram &program)
     : kernels_(&kernels), W_(kernels.width), Q_(program.num_qpts) {
   chk(CeedQFunctionGetUserFunction(program.qf, &function_));
   chk(CeedQFunctionGetVectorLength(program.qf, &vec_length_));
   for (CeedInt s = 0; s < program.num_sources; s++) {
-    sources_.push_back({host::BlockMap(kernels, program.sources[s].rstr), -1, program.sources[s].is_active});
+    sources_.push_back({BlockMap(kernels, program.sources[s].rstr), -1, program.sources[s].is_active});
   }
   for (CeedInt t = 0; t < program.num_sinks; t++) {
-    sinks_.push_back({host::BlockMap(kernels, program.sinks[t].rstr), -1, program.sinks[t].is_active});
+    sinks_.push_back({BlockMap(kernels, program.sinks[t].rstr), -1, program.sinks[t].is_active});
   }
   std::vector<CeedBasis> handles;
   for (CeedInt i = 0; i < program.num_spaces; i++) {
@@ -124,8 +122,8 @@ void BlockOperator::plan_ahead() {
   ahead_ = {.next = 0, .lines = 1};
   evaluate(std::vector<const CeedScalar *>(sources_.size(), arena_[0]));
   integrate();
-  const auto steps = static_cast<CeedSize>(ahead_.next / host::Ahead::line);
-  ahead_.lines = steps == 0 ? 0 : static_cast<CeedInt>((largest / host::Ahead::line + steps - 1) / steps);
+  const auto steps = static_cast<CeedSize>(ahead_.next / Ahead::line);
+  ahead_.lines = steps == 0 ? 0 : static_cast<CeedInt>((largest / Ahead::line + steps - 1) / steps);
 }
 
 void BlockOperator::ask_for_block(CeedSize first, const std::vector<const CeedScalar *> &sources) {
@@ -144,8 +142,7 @@ void BlockOperator::evaluate(const std::vector<const CeedScalar *> &sources) {
 
 /// Nodes lie scattered in L-vectors: what this block will be added to, and what the next one gathers, is on its way
 /// while this one is worked on.
-void BlockOperator::ask_for_nodes(CeedInt first, CeedInt num_elem, CeedInt end,
-                                  const host::ProgramArrays &arrays) const {
+void BlockOperator::ask_for_nodes(CeedInt first, CeedInt num_elem, CeedInt end, const ProgramArrays &arrays) const {
   for (const Result &result : results_) {
     sinks_[result.side].map.ask(first, num_elem, arrays.sinks()[result.side], true);
   }
@@ -186,7 +183,7 @@ void BlockOperator::call(const CeedProgram &program, CeedInt first, CeedInt num_
     for (const PointArray &output : output_values_) widen(num_elem, num_points, output.size, arena_[output.array]);
     fill_weights(program);
   }
-  host::check_returned(program, code, first, num_elem);
+  check_returned(program, code, first, num_elem);
 }
 
 /// From W lanes to those of n elements, in place; `stride` points of a component, the last one repeated where they are
@@ -233,7 +230,7 @@ void BlockOperator::write(CeedInt first, CeedInt num_elem, const std::vector<Cee
 }
 
 void BlockOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
-  host::ProgramArrays arrays(program, in, out, mode);
+  ProgramArrays arrays(program, in, out, mode);
   ContextData context(program.qf);
   for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
     ask_for_block(static_cast<CeedSize>(first) + W_, arrays.sources());
@@ -249,7 +246,7 @@ void BlockOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVec
 /// Column by column: the QFunction of a unit value of each active input, all others zero.
 void BlockOperator::linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem,
                                               CeedVector values) {
-  host::ProgramArrays arrays(program);
+  ProgramArrays arrays(program);
   Writer assembled(values, Writer::write_only);
   ContextData context(program.qf);
   const CeedInt num_in = program.num_active_in, num_out = program.num_active_out, row = Q_ * W_;
@@ -281,4 +278,4 @@ void BlockOperator::linear_assemble_qfunction(const CeedProgram &program, CeedIn
   arrays.release();
 }
 
-}  // namespace hg::avx
+}  // namespace hg::host

@@ -7,12 +7,12 @@
 #include <memory>
 #include <vector>
 
-#include "../host/access.hpp"
-#include "../host/block_map.hpp"
-#include "../host/point_basis.hpp"
+#include "access.hpp"
+#include "block_map.hpp"
 #include "fields.hpp"
+#include "point_basis.hpp"
 
-namespace hg::avx {
+namespace hg::host {
 
 /// v = Σ_e R_e^T B^T D(B R_e u) with B at points: nodes are gathered and turned into Chebyshev coefficients for W
 /// elements side by side; each element's points are evaluated W at a time; the QFunction is called for the points of
@@ -26,8 +26,8 @@ namespace hg::avx {
 class PointOperator {
  public:
   /// Whether a program can be taken: at points, in bases that the kernels take, with the other fields at points.
-  static bool takes(const host::Kernels &kernels, const CeedProgram &program);
-  PointOperator(const host::Kernels &kernels, const CeedProgram &program);
+  static bool takes(const Kernels &kernels, const CeedProgram &program);
+  PointOperator(const Kernels &kernels, const CeedProgram &program);
 
   /// The same operator for points that were set again: bases are kept.
   PointOperator followed(const CeedProgram &program) const;
@@ -42,7 +42,7 @@ class PointOperator {
   /// A side at points has a list of its points, the others a map of their nodes.
   struct Side {
     const CeedElementMap *points = nullptr;
-    std::unique_ptr<host::BlockMap> nodes;
+    std::unique_ptr<BlockMap> nodes;
     int block = -1;  ///< its nodes' values
     CeedInt num_comp;
     bool is_active;
@@ -54,8 +54,8 @@ class PointOperator {
     CeedInt stride;      ///< the same, up to a multiple of the QFunction's vector length
   };
 
-  PointOperator(const host::Kernels &kernels, const CeedProgram &program, std::vector<host::PointBasis> bases);
-  Side make_side(const host::Kernels &kernels, const CeedProgramSide &side) const;
+  PointOperator(const Kernels &kernels, const CeedProgram &program, std::vector<PointBasis> bases);
+  Side make_side(const Kernels &kernels, const CeedProgramSide &side) const;
   int add_values(CeedInt size);
   bool add_nodes(Side &side);
   void place_inputs(const CeedProgram &program);
@@ -64,15 +64,15 @@ class PointOperator {
   void call(const CeedProgram &program, const Block &block, void *context);
   CeedInt num_points(CeedInt e) const { return points_->offsets[e + 1] - points_->offsets[e]; }
   const CeedInt *places(const CeedElementMap &map, CeedInt e) const { return map.offsets + map.offsets[e]; }
-  const host::PointBasis &basis(CeedInt space) const { return bases_[basis_of_space_[space]]; }
-  host::PointEvaluation evaluation(const Block &block, const host::PointBasis &basis, host::Ahead &ahead) const;
-  host::Ahead ask_for(const Block &block, const CeedElementMap &map, const CeedScalar *l) const;
+  const PointBasis &basis(CeedInt space) const { return bases_[basis_of_space_[space]]; }
+  PointEvaluation evaluation(const Block &block, const PointBasis &basis, Ahead &ahead) const;
+  Ahead ask_for(const Block &block, const CeedElementMap &map, const CeedScalar *l) const;
   void read(const Block &block, const CeedScalar *x_ref, const std::vector<const CeedScalar *> &sources);
   void write(const Block &block, const std::vector<const CeedScalar *> &sources,
              const std::vector<CeedScalar *> &sinks);
   void pad(const Block &block, CeedInt size, CeedScalar *values) const;
 
-  const host::Kernels *kernels_;
+  const Kernels *kernels_;
   CeedInt W_, vec_length_ = 1;
   CeedSize points_epoch_;
   CeedQFunctionUser function_ = nullptr;
@@ -80,7 +80,7 @@ class PointOperator {
   CeedInt dim_ = 0;
   CeedInt most_points_ = 0;  ///< largest stride of a block
   std::vector<Side> sources_, sinks_;
-  std::vector<host::PointBasis> bases_;
+  std::vector<PointBasis> bases_;
   std::vector<CeedInt> basis_of_space_;  ///< index in bases_; -1 for that of weights
   std::vector<Evaluation> evaluations_, integrations_;
   std::vector<Copy> copies_in_, copies_out_;  ///< at points
@@ -94,4 +94,4 @@ class PointOperator {
   std::vector<CeedScalar *> out_;
 };
 
-}  // namespace hg::avx
+}  // namespace hg::host

@@ -1,0 +1,31 @@
+#include "operator.hpp"
+
+namespace hg::host {
+
+std::unique_ptr<Operator> Operator::make(const Kernels &kernels, const CeedProgram &program) {
+  if (PointOperator::takes(kernels, program)) {
+    return std::unique_ptr<Operator>(new Operator(PointOperator(kernels, program)));
+  }
+  if (BlockOperator::takes(kernels, program)) {
+    return std::unique_ptr<Operator>(new Operator(BlockOperator(kernels, program)));
+  }
+  return nullptr;
+}
+
+void Operator::follow(const CeedProgram &program) {
+  auto *at_points = std::get_if<PointOperator>(&either_);
+  if (at_points != nullptr && at_points->points_epoch() != program.points_epoch) {
+    either_ = at_points->followed(program);
+  }
+}
+
+void Operator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+  std::visit([&](auto &own) { own.apply_add(program, in, out, mode); }, either_);
+}
+
+void Operator::linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem,
+                                         CeedVector values) {
+  std::visit([&](auto &own) { own.linear_assemble_qfunction(program, first_elem, num_elem, values); }, either_);
+}
+
+}  // namespace hg::host

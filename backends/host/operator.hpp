@@ -1,0 +1,35 @@
+/// @file
+/// An operator's program on the kernels of this room.
+#pragma once
+
+#include <ceed/plugin.h>
+
+#include <memory>
+#include <variant>
+
+#include "block_operator.hpp"
+#include "point_operator.hpp"
+
+namespace hg::host {
+
+/// At quadrature points or at points, as its program says. One thread at a time.
+class Operator {
+ public:
+  /// NULL where the kernels do not take the program.
+  static std::unique_ptr<Operator> make(const Kernels &kernels, const CeedProgram &program);
+
+  /// To be called before anything else below: follows the points where they have been set again.
+  void follow(const CeedProgram &program);
+  /// As CeedOperatorOps::apply_add().
+  void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  /// As CeedOperatorOps::linear_assemble_qfunction().
+  void linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem, CeedVector values);
+
+ private:
+  using Either = std::variant<BlockOperator, PointOperator>;
+  explicit Operator(Either either) : either_(std::move(either)) {}
+
+  Either either_;
+};
+
+}  // namespace hg::host
