@@ -1,6 +1,7 @@
 #include "block_operator.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace hg::host {
 

@@ -16,71 +16,79 @@ template <bool add>
 
 /// With e_n = x_n + x_(N-1-n), o_n = x_n - x_(N-1-n), E = (B_(m,n) + B_(m,N-1-n))/2 and O = (B_(m,n) - B_(m,N-1-n))/2:
 ///   y_m = E e + O o,   y_(M-1-m) = s (E e - O o).
-/// The middle of an odd N counts among the e_n.
+/// The middle of an odd N counts among the e_n. `in_step` and `out_step` numbers lie between rows, W between the
+/// `columns` that are next to each other.
+template <int M, int N, int s, bool add>
+[[gnu::always_inline]] inline void contract_columns(const CeedScalar *coefficients, CeedInt columns,
+                                                    const CeedScalar *in, CeedSize in_step, CeedScalar *out,
+                                                    CeedSize out_step, Ahead &ahead) {
+  constexpr int num_even = (N + 1) / 2, num_odd = N / 2;
+  for (CeedInt c = 0; c < columns; c++) {
+    const CeedScalar *x = in + c * W;
+    CeedScalar *y = out + c * W;
+    ask(ahead);
+    Pack even[num_even], odd[num_odd > 0 ? num_odd : 1];
+#pragma GCC unroll 16
+    for (int n = 0; n < num_odd; n++) {
+      const Pack first = load(x + n * in_step), last = load(x + (N - 1 - n) * in_step);
+      even[n] = first + last;
+      odd[n] = first - last;
+    }
+    if constexpr (N % 2 == 1) even[num_odd] = load(x + num_odd * in_step);
+#pragma GCC unroll 16
+    for (int m = 0; m < M / 2; m++) {
+      const CeedScalar *row = coefficients + m * N;
+      Pack p = row[0] * even[0], q{};
+#pragma GCC unroll 16
+      for (int n = 1; n < num_even; n++) p = fma(row[n], even[n], p);
+      if constexpr (num_odd > 0) q = row[num_even] * odd[0];
+#pragma GCC unroll 16
+      for (int n = 1; n < num_odd; n++) q = fma(row[num_even + n], odd[n], q);
+      put<add>(y + m * out_step, p + q);
+      put<add>(y + (M - 1 - m) * out_step, s > 0 ? p - q : q - p);
+    }
+    if constexpr (M % 2 == 1) {
+      // The middle row sees only one of the two.
+      const CeedScalar *row = coefficients + M / 2 * N;
+      Pack p{};
+      if constexpr (s > 0) {
+        p = row[0] * even[0];
+#pragma GCC unroll 16
+        for (int n = 1; n < num_even; n++) p = fma(row[n], even[n], p);
+      } else if constexpr (num_odd > 0) {
+        p = row[num_even] * odd[0];
+#pragma GCC unroll 16
+        for (int n = 1; n < num_odd; n++) p = fma(row[num_even + n], odd[n], p);
+      }
+      put<add>(y + M / 2 * out_step, p);
+    }
+  }
+}
+
 template <int M, int N, int s, bool add>
 void contract_symmetric(const CeedScalar *coefficients, CeedInt, CeedInt, CeedInt pre, CeedInt post,
                         const CeedScalar *in, CeedScalar *out, Ahead &ahead) {
-  constexpr int num_even = (N + 1) / 2, num_odd = N / 2;
   const CeedSize step = static_cast<CeedSize>(post) * W;
   for (CeedInt a = 0; a < pre; a++, in += N * step, out += M * step) {
-    for (CeedInt c = 0; c < post; c++) {
-      const CeedScalar *x = in + c * W;
-      CeedScalar *y = out + c * W;
-      ask(ahead);
-      Pack even[num_even], odd[num_odd > 0 ? num_odd : 1];
-#pragma GCC unroll 16
-      for (int n = 0; n < num_odd; n++) {
-        const Pack first = load(x + n * step), last = load(x + (N - 1 - n) * step);
-        even[n] = first + last;
-        odd[n] = first - last;
-      }
-      if constexpr (N % 2 == 1) even[num_odd] = load(x + num_odd * step);
-#pragma GCC unroll 16
-      for (int m = 0; m < M / 2; m++) {
-        const CeedScalar *row = coefficients + m * N;
-        Pack p = row[0] * even[0], q{};
-#pragma GCC unroll 16
-        for (int n = 1; n < num_even; n++) p = fma(row[n], even[n], p);
-        if constexpr (num_odd > 0) q = row[num_even] * odd[0];
-#pragma GCC unroll 16
-        for (int n = 1; n < num_odd; n++) q = fma(row[num_even + n], odd[n], q);
-        put<add>(y + m * step, p + q);
-        put<add>(y + (M - 1 - m) * step, s > 0 ? p - q : q - p);
-      }
-      if constexpr (M % 2 == 1) {
-        // The middle row sees only one of the two.
-        const CeedScalar *row = coefficients + M / 2 * N;
-        Pack p{};
-        if constexpr (s > 0) {
-          p = row[0] * even[0];
-#pragma GCC unroll 16
-          for (int n = 1; n < num_even; n++) p = fma(row[n], even[n], p);
-        } else if constexpr (num_odd > 0) {
-          p = row[num_even] * odd[0];
-#pragma GCC unroll 16
-          for (int n = 1; n < num_odd; n++) p = fma(row[num_even + n], odd[n], p);
-        }
-        put<add>(y + M / 2 * step, p);
-      }
-    }
+    contract_columns<M, N, s, add>(coefficients, post, in, step, out, step, ahead);
   }
 }
 
 /// `rows` rows from m on, at place c.
 template <int rows, bool add>
-[[gnu::always_inline]] inline void contract_rows(const CeedScalar *B, CeedInt N, CeedSize step, const CeedScalar *x,
-                                                 CeedScalar *y, Ahead &ahead) {
+[[gnu::always_inline]] inline void contract_rows(const CeedScalar *B, CeedInt N, const CeedScalar *x, CeedSize in_step,
+                                                 CeedScalar *y, CeedSize out_step, Ahead &ahead) {
   ask(ahead);
   Pack sums[rows];
 #pragma GCC unroll 16
   for (int m = 0; m < rows; m++) sums[m] = B[m * N] * load(x);
   for (CeedInt n = 1; n < N; n++) {
-    const Pack value = load(x + n * step);
+    const Pack value = load(x + n * in_step);
 #pragma GCC unroll 16
     for (int m = 0; m < rows; m++) sums[m] = fma(B[m * N + n], value, sums[m]);
   }
 #pragma GCC unroll 16
-  for (int m = 0; m < rows; m++) put<add>(y + m * step, sums[m]);
+  for (int m = 0; m < rows; m++) put<add>(y + m * out_step, sums[m]);
 }
 
 template <int n>
@@ -95,8 +103,8 @@ void contract_any(const CeedScalar *B, CeedInt M, CeedInt N, CeedInt pre, CeedIn
   const CeedSize step = static_cast<CeedSize>(post) * W;
   const auto rows = [&](auto count, CeedInt m) __attribute__((always_inline)) {
     for (CeedInt c = 0; c < post; c++) {
-      contract_rows<decltype(count)::value, add>(B + static_cast<CeedSize>(m) * N, N, step, in + c * W,
-                                                 out + m * step + c * W, ahead);
+      contract_rows<decltype(count)::value, add>(B + static_cast<CeedSize>(m) * N, N, in + c * W, step,
+                                                 out + m * step + c * W, step, ahead);
     }
   };
   for (CeedInt a = 0; a < pre; a++, in += N * step, out += M * step) {

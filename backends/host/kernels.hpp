@@ -6,7 +6,7 @@
 
 #include <ceed/types.h>
 
-#include <cstdint>
+#include <stdint.h>
 
 namespace hg::host {
 
@@ -25,7 +25,7 @@ enum class Symmetry {
 /// on.
 struct Ahead {
   static constexpr CeedInt line = 64;  ///< bytes
-  std::uintptr_t next = 0;
+  uintptr_t next = 0;
   CeedInt lines = 0;
 };
 

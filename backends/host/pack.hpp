@@ -3,14 +3,18 @@
 /// instruction set, in a namespace of its own, and includes no header with functions of C++, which the linker would
 /// merge.
 ///
-/// HG_HOST_ISA   the namespace: portable, avx2, avx512
+/// HG_HOST_ISA   the namespace: portable, avx2, avx512; compiled
 /// HG_HOST_WIDTH W, the numbers of a pack
+///
+/// Text that is compiled at run time includes it, too: without the headers of C++ and of intrinsics, which would take
+/// longer than all the rest, and with a compiler that may fuse a b + c by itself.
 #pragma once
 
 #include <ceed/types.h>
 
-#include <cstdint>
-#if defined(__FMA__)
+#include <stdint.h>
+#if defined(__FMA__) && !defined(HG_HOST_FUSES)
+#define HG_HOST_FMA
 #include <immintrin.h>
 #endif
 
@@ -42,7 +46,7 @@ typedef Pack AliasedPack __attribute__((may_alias));
 }
 
 /// Which of W lanes are among the first n: all bits of a lane set, or none.
-typedef std::int64_t Mask __attribute__((vector_size(W * sizeof(std::int64_t))));
+typedef int64_t Mask __attribute__((vector_size(W * sizeof(int64_t))));
 [[gnu::always_inline]] inline Mask first_lanes(CeedInt n) {
 #if HG_HOST_WIDTH == 8
   constexpr Mask lane = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -51,7 +55,7 @@ typedef std::int64_t Mask __attribute__((vector_size(W * sizeof(std::int64_t))))
 #else
   constexpr Mask lane = {0, 1};
 #endif
-  return lane < static_cast<std::int64_t>(n);
+  return lane < static_cast<int64_t>(n);
 }
 
 /// The first n of W numbers, the others 0. W numbers can be read.
@@ -68,9 +72,9 @@ typedef std::int64_t Mask __attribute__((vector_size(W * sizeof(std::int64_t))))
 /// a b + c, rounded once where the instruction set can. The compiler fuses nothing by itself (-ffp-contract=off), so
 /// that all widths round alike.
 [[gnu::always_inline]] inline Pack fma(Pack a, Pack b, Pack c) {
-#if HG_HOST_WIDTH == 8 && defined(__AVX512F__)
+#if HG_HOST_WIDTH == 8 && defined(HG_HOST_FMA)
   return _mm512_fmadd_pd(a, b, c);
-#elif HG_HOST_WIDTH == 4 && defined(__FMA__)
+#elif HG_HOST_WIDTH == 4 && defined(HG_HOST_FMA)
   return _mm256_fmadd_pd(a, b, c);
 #else
   return a * b + c;

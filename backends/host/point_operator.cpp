@@ -1,6 +1,7 @@
 #include "point_operator.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace hg::host {

@@ -43,9 +43,43 @@ struct PointTable {
   }
 };
 
-/// `lanes`: elements side by side in a block, W or 1, numbers between the coefficients of one.
-/// v = Σ c_(k2,k1,k0) T_k2(z) T_k1(y) T_k0(x) and its derivatives, W points of one element at a time.
-/// Floor of a pack, multiplications with additions: 2 K^3 + 3 K^2 + 4 K with derivatives, K^3 + K^2 + K without.
+/// A function, given by its coefficients c, and its derivatives at W points. `lanes`: elements side by side in a block,
+/// W or 1, numbers between the coefficients of one.
+///   v = Σ c_(k2,k1,k0) T_k2(z) T_k1(y) T_k0(x),   x, y, z its derivatives
+/// Floor, multiplications with additions: 2 K^3 + 3 K^2 + 4 K with derivatives, K^3 + K^2 + K without.
+template <bool with_derivatives>
+struct PointValues {
+  Pack v{}, x{}, y{}, z{};
+
+  template <int lanes>
+  [[gnu::always_inline]] void evaluate(const PointTable &table, CeedInt K, CeedInt K1, CeedInt K2,
+                                       const CeedScalar *c) {
+    for (CeedInt k2 = 0; k2 < K2; k2++) {
+      Pack plane{}, plane_x{}, plane_y{};
+      for (CeedInt k1 = 0; k1 < K1; k1++) {
+        Pack row{}, row_x{};
+#pragma GCC unroll 16
+        for (CeedInt k0 = 0; k0 < K; k0++, c += lanes) {
+          row = fma(*c, table.T[0][k0], row);
+          if constexpr (with_derivatives) row_x = fma(*c, table.dT[0][k0], row_x);
+        }
+        plane = fma(row, table.T[1][k1], plane);
+        if constexpr (with_derivatives) {
+          plane_x = fma(row_x, table.T[1][k1], plane_x);
+          plane_y = fma(row, table.dT[1][k1], plane_y);
+        }
+      }
+      v = fma(plane, table.T[2][k2], v);
+      if constexpr (with_derivatives) {
+        x = fma(plane_x, table.T[2][k2], x);
+        y = fma(plane_y, table.T[2][k2], y);
+        z = fma(plane, table.dT[2][k2], z);
+      }
+    }
+  }
+};
+
+/// All components at all points of an element.
 template <int lanes, int fixed_K, bool with_derivatives>
 void evaluate_points(const PointEvaluation &e, const CeedScalar *coefficients, CeedScalar *values,
                      CeedScalar *derivatives) {
@@ -57,37 +91,15 @@ void evaluate_points(const PointEvaluation &e, const CeedScalar *coefficients, C
     ask(*e.ahead);
     table.fill(e.dim, K, e.x_ref + first, e.stride, n);
     for (CeedInt comp = 0; comp < e.num_comp; comp++) {
-      const CeedScalar *c = coefficients + comp * of_component;
-      Pack v{}, x{}, y{}, z{};
-      for (CeedInt k2 = 0; k2 < K2; k2++) {
-        Pack plane{}, plane_x{}, plane_y{};
-        for (CeedInt k1 = 0; k1 < K1; k1++) {
-          Pack row{}, row_x{};
-#pragma GCC unroll 16
-          for (CeedInt k0 = 0; k0 < K; k0++, c += lanes) {
-            row = fma(*c, table.T[0][k0], row);
-            if constexpr (with_derivatives) row_x = fma(*c, table.dT[0][k0], row_x);
-          }
-          plane = fma(row, table.T[1][k1], plane);
-          if constexpr (with_derivatives) {
-            plane_x = fma(row_x, table.T[1][k1], plane_x);
-            plane_y = fma(row, table.dT[1][k1], plane_y);
-          }
-        }
-        v = fma(plane, table.T[2][k2], v);
-        if constexpr (with_derivatives) {
-          x = fma(plane_x, table.T[2][k2], x);
-          y = fma(plane_y, table.T[2][k2], y);
-          z = fma(plane, table.dT[2][k2], z);
-        }
-      }
-      if (values != nullptr) store_some(values + comp * e.stride + first, v, n);
+      PointValues<with_derivatives> at;
+      at.template evaluate<lanes>(table, K, K1, K2, coefficients + comp * of_component);
+      if (values != nullptr) store_some(values + comp * e.stride + first, at.v, n);
       if constexpr (with_derivatives) {
         const CeedSize of_direction = e.num_comp * e.stride;
         CeedScalar *to = derivatives + comp * e.stride + first;
-        store_some(to, x, n);
-        if (e.dim > 1) store_some(to + of_direction, y, n);
-        if (e.dim > 2) store_some(to + 2 * of_direction, z, n);
+        store_some(to, at.x, n);
+        if (e.dim > 1) store_some(to + of_direction, at.y, n);
+        if (e.dim > 2) store_some(to + 2 * of_direction, at.z, n);
       }
     }
   }
@@ -113,17 +125,12 @@ template <int lanes>
   }
 }
 
-/// Adds what `packs` times W points from `first` on give to the sums of all components.
+/// Adds what `packs` times W points from `first` on, with a table for each W, give to the sums of all components.
 template <int fixed_K, bool with_derivatives, int packs>
-[[gnu::always_inline]] inline void integrate_packs(const PointEvaluation &e, CeedInt first, const CeedScalar *values,
-                                                   const CeedScalar *derivatives, CeedScalar *sum) {
+[[gnu::always_inline]] inline void integrate_packs(const PointEvaluation &e, const PointTable *table, CeedInt first,
+                                                   const CeedScalar *values, const CeedScalar *derivatives,
+                                                   CeedScalar *sum) {
   const CeedInt K = fixed_K > 0 ? fixed_K : e.K, K1 = e.dim > 1 ? K : 1, K2 = e.dim > 2 ? K : 1;
-  PointTable table[packs];
-#pragma GCC unroll 2
-  for (int i = 0; i < packs; i++) {
-    ask(*e.ahead);
-    table[i].fill(e.dim, K, e.x_ref + first + i * W, e.stride, e.num_points - first - i * W);
-  }
   for (CeedInt comp = 0; comp < e.num_comp; comp++) {
     Pack v[packs]{}, x[packs]{}, y[packs]{}, z[packs]{};
 #pragma GCC unroll 2
@@ -181,11 +188,20 @@ void integrate_points(const PointEvaluation &e, const CeedScalar *values, const 
   const CeedInt K = fixed_K > 0 ? fixed_K : e.K;
   const CeedInt num_coefficients = K * (e.dim > 1 ? K : 1) * (e.dim > 2 ? K : 1) * e.num_comp;
   for (CeedInt k = 0; k < num_coefficients; k++) store(sums + k * W, Pack{});
+  PointTable table[2];
+  const auto fill = [&](int i, CeedInt first) __attribute__((always_inline)) {
+    ask(*e.ahead);
+    table[i].fill(e.dim, K, e.x_ref + first, e.stride, e.num_points - first);
+  };
   CeedInt first = 0;
   for (; first + W < e.num_points; first += 2 * W) {
-    integrate_packs<fixed_K, with_derivatives, 2>(e, first, values, derivatives, sums);
+    fill(0, first);
+    fill(1, first + W);
+    integrate_packs<fixed_K, with_derivatives, 2>(e, table, first, values, derivatives, sums);
   }
-  if (first < e.num_points) integrate_packs<fixed_K, with_derivatives, 1>(e, first, values, derivatives, sums);
+  if (first >= e.num_points) return reduce<lanes>(sums, num_coefficients, coefficients);
+  fill(0, first);
+  integrate_packs<fixed_K, with_derivatives, 1>(e, table, first, values, derivatives, sums);
   reduce<lanes>(sums, num_coefficients, coefficients);
 }
 
