@@ -46,6 +46,16 @@ double sum_over_ranks(MPI_Comm comm, double value) {
   return value;
 }
 
+/// All ranks have the same library: none counts, or all do.
+std::optional<CeedOperatorMemory> sum_over_ranks(MPI_Comm comm, std::optional<CeedOperatorMemory> memory) {
+  if (!memory) return {};
+  for (CeedSize *part : {&memory->program, &memory->restrictions, &memory->bases, &memory->vectors, &memory->assembly,
+                         &memory->backend, &memory->total}) {
+    *part = std::llround(sum_over_ranks(comm, double(*part)));
+  }
+  return memory;
+}
+
 /// Seconds of each application, halo exchange included, on the slowest rank.
 std::vector<double> time_applications(MPI_Comm comm, Mat A, Vec x, Vec y, int repetitions) {
   std::vector<double> seconds;
@@ -97,6 +107,8 @@ Record run_one(MPI_Comm comm, const Run &run, const BpsOptions &options) {
   record.cpu = cpu_name();
   record.library_version = library_version();
   const auto seconds = time_applications(comm, A, b, x, options.repetitions);
+  record.memory = sum_over_ranks(comm, operator_memory(ceed, bakeoff->op()));
+  record.compulsory_memory = sum_over_ranks(comm, bakeoff->work().held_bytes);
   record.repetitions = options.repetitions;
   record.seconds_best = seconds.front();
   record.seconds_median = (seconds[(seconds.size() - 1) / 2] + seconds[seconds.size() / 2]) / 2;

@@ -87,6 +87,8 @@ Record run_case(Ceed ceed, const Case &which, int repetitions, const CgOptions &
   record.library_version = library_version();
 
   std::vector<double> seconds = time_applications(ceed, bakeoff, b, x, repetitions);
+  record.memory = operator_memory(ceed, bakeoff.op());
+  record.compulsory_memory = bakeoff.work().held_bytes;
   std::ranges::sort(seconds);
   record.repetitions = repetitions;
   record.seconds_best = seconds.front();

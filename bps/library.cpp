@@ -1,6 +1,7 @@
 #include "library.hpp"
 
 #include <ceed.h>
+#include <dlfcn.h>
 
 #include <array>
 #include <cstdlib>
@@ -92,6 +93,15 @@ std::vector<std::string> usable_resources() {
     CeedDestroy(&ceed);
   }
   return usable;
+}
+
+std::optional<CeedOperatorMemory> operator_memory(Ceed ceed, CeedOperator op) {
+  const auto get_memory =
+      reinterpret_cast<decltype(&CeedOperatorGetMemory)>(dlsym(RTLD_DEFAULT, "CeedOperatorGetMemory"));
+  if (get_memory == nullptr) return {};
+  CeedOperatorMemory memory{};
+  check(ceed, get_memory(op, &memory));
+  return memory;
 }
 
 }  // namespace hg::bps

@@ -2,6 +2,9 @@
 /// The library that this process found: its version, its file, its backends.
 #pragma once
 
+#include <ceed/backend.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,5 +18,9 @@ std::vector<std::string> registered_resources();
 
 /// The resources among registered_resources() that initialise on this machine and are there for work: no memcheck.
 std::vector<std::string> usable_resources();
+
+/// The bytes that an operator works with, where the library counts them: it is looked for by its name, so that these
+/// programs run with libraries that do not have CeedOperatorGetMemory().
+std::optional<CeedOperatorMemory> operator_memory(Ceed ceed, CeedOperator op);
 
 }  // namespace hg::bps

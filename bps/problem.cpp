@@ -16,9 +16,9 @@ constexpr std::array<Problem, 6> problems{{
     {"bp6", true, 3, true},
 }};
 
-double cell_and_dof_bytes(CeedInt degree, CeedSize num_elem, CeedSize num_dofs) {
+double cell_bytes(CeedInt degree, CeedSize num_elem) {
   const double P = degree + 1;
-  return 16. * num_dofs + 4. * P * P * P * num_elem;
+  return 4. * P * P * P * num_elem;
 }
 
 /// Contraction chains of one application, forward and transposed together.
@@ -44,15 +44,17 @@ const Problem *find_problem(std::string_view name) {
 Work work_at_quadrature(const Problem &problem, CeedInt degree, CeedSize num_elem, CeedSize num_dofs) {
   const double P = degree + 1, Q = problem.q_1d(degree), num_points = Q * Q * Q * num_elem;
   const double chain = 2 * (P * P * P * Q + P * P * Q * Q + P * Q * Q * Q);
-  return {cell_and_dof_bytes(degree, num_elem, num_dofs) + 8 * problem.num_stored() * num_points,
-          num_chains(problem) * chain * num_elem + point_flops(problem) * num_points};
+  const double held_bytes = cell_bytes(degree, num_elem) + 8 * problem.num_stored() * num_points;
+  return {16. * num_dofs + held_bytes, num_chains(problem) * chain * num_elem + point_flops(problem) * num_points,
+          held_bytes};
 }
 
 Work work_at_points(const Problem &problem, CeedInt degree, CeedSize num_elem, CeedSize num_dofs, CeedSize num_points) {
   const double P = degree + 1;
   const double chain = 2 * (P * P * P + P * P + P);
-  return {cell_and_dof_bytes(degree, num_elem, num_dofs) + 8. * (3 + problem.num_stored()) * num_points,
-          (num_chains(problem) * chain + point_flops(problem)) * num_points};
+  const double read_bytes = cell_bytes(degree, num_elem) + 8. * (3 + problem.num_stored()) * num_points;
+  return {16. * num_dofs + read_bytes, (num_chains(problem) * chain + point_flops(problem)) * num_points,
+          read_bytes + 4. * num_points};
 }
 
 }  // namespace hg::bps

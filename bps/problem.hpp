@@ -35,6 +35,7 @@ const Problem *find_problem(std::string_view name);
 struct Work {
   double bytes;  ///< compulsory bytes
   double flops;
+  double held_bytes;  ///< compulsory bytes that the operator must hold: without x and y
 };
 
 /// At quadrature points, compulsory bytes are x read and y written (16 a DoF), one 4-byte offset for each node of each
@@ -43,8 +44,9 @@ struct Work {
 /// for mass, 15 for Poisson).
 Work work_at_quadrature(const Problem &problem, CeedInt degree, CeedSize num_elem, CeedSize num_dofs);
 
-/// At material points: the same bytes, and 24 for the reference coordinates of each point. The contraction at a point
-/// costs 2 (P³ + P² + P) flops for each component and derivative set, forward and transposed.
+/// At material points: the same bytes, and 24 for the reference coordinates of each point; held are 4 more for its
+/// place. The contraction at a point costs 2 (P³ + P² + P) flops for each component and derivative set, forward and
+/// transposed.
 Work work_at_points(const Problem &problem, CeedInt degree, CeedSize num_elem, CeedSize num_dofs, CeedSize num_points);
 
 }  // namespace hg::bps

@@ -16,6 +16,12 @@ nlohmann::ordered_json nullable(const std::optional<T> &value) {
   return nullptr;
 }
 
+nlohmann::ordered_json to_json(const CeedOperatorMemory &memory) {
+  return {{"total", memory.total},    {"program", memory.program}, {"restrictions", memory.restrictions},
+          {"bases", memory.bases},    {"vectors", memory.vectors}, {"assembly", memory.assembly},
+          {"backend", memory.backend}};
+}
+
 }  // namespace
 
 void to_json(nlohmann::ordered_json &json, const Record &r) {
@@ -37,6 +43,10 @@ void to_json(nlohmann::ordered_json &json, const Record &r) {
       {"gb_per_s", r.gb_per_s()},
       {"flops", r.flops},
       {"gflops_per_s", r.gflops_per_s()},
+      {"memory", r.memory ? to_json(*r.memory) : nlohmann::ordered_json()},
+      {"compulsory_memory", r.compulsory_memory},
+      {"memory_ratio",
+       r.memory ? nlohmann::ordered_json(r.memory->total / r.compulsory_memory) : nlohmann::ordered_json()},
       {"cg_iterations", r.cg_iterations},
       {"cg_converged", r.cg_converged},
       {"cg_seconds", r.cg_seconds},

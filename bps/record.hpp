@@ -2,6 +2,8 @@
 /// The record of one bake-off run, the same from every program, and the JSON file that collects them.
 #pragma once
 
+#include <ceed/backend.h>
+
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -23,6 +25,8 @@ struct Record {
   int repetitions = 0;
   double seconds_best = 0, seconds_median = 0;  ///< of one application of the operator
   double bytes = 0, flops = 0;                  ///< compulsory bytes and formula flops of one application
+  std::optional<CeedOperatorMemory> memory;     ///< where the library counts it
+  double compulsory_memory = 0;                 ///< bytes that the operator must hold
   int cg_iterations = 0;
   bool cg_converged = false;
   double cg_seconds = 0;

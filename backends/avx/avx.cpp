@@ -57,6 +57,13 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
   });
 }
 
+int get_memory(CeedOperator op, CeedSize *bytes) {
+  return host::wall(CeedOperatorReturnCeed(op), [&] {
+    const host::Operator *own = operator_of(op);
+    *bytes = own != nullptr ? static_cast<CeedSize>(own->num_bytes()) : 0;
+  });
+}
+
 int score(const char **reason) {
   return host::kernels(true, reason) != nullptr ? 1 : 0;
 }
@@ -68,6 +75,7 @@ int init(Ceed, const char *, CeedBackendOps *ops) {
   ops->op.destroy = destroy;
   ops->op.apply_add = apply_add;
   ops->op.linear_assemble_qfunction = linear_assemble_qfunction;
+  ops->op.get_memory = get_memory;
   return CEED_ERROR_SUCCESS;
 }
 

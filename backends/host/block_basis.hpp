@@ -25,6 +25,9 @@ class Factor {
                        bool add = false) const {
     back_.kernel[add](back_.coefficients.data(), N_, M_, pre, post, in, out, ahead);
   }
+  std::size_t num_bytes() const {
+    return (forward_.coefficients.size() + back_.coefficients.size()) * sizeof(CeedScalar);
+  }
 
  private:
   struct Direction {
@@ -57,6 +60,14 @@ class BlockBasis {
   /// u (+)= B^T interp + G^T derivative; either may be NULL. What is in `interp` afterwards is undefined.
   void integrate(CeedScalar *interp, const CeedScalar *derivative, CeedScalar *u, bool add, CeedScalar *work,
                  Ahead &ahead) const;
+  /// Bytes of its matrices.
+  std::size_t num_bytes() const {
+    std::size_t bytes = weights_.size() * sizeof(CeedScalar) + interp_1d_.num_bytes() + grad_1d_.num_bytes();
+    for (const auto *factors : {&interp_, &derivative_}) {
+      for (const Factor &factor : *factors) bytes += factor.num_bytes();
+    }
+    return bytes;
+  }
   /// Quadrature weights, one for each point.
   const std::vector<CeedScalar> &weights() const { return weights_; }
 

@@ -24,6 +24,10 @@ class Operator {
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// As CeedOperatorOps::linear_assemble_qfunction().
   void linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem, CeedVector values);
+  /// As CeedOperatorOps::get_memory().
+  std::size_t num_bytes() const {
+    return std::visit([](const auto &own) { return own.num_bytes(); }, either_);
+  }
 
  private:
   using Either = std::variant<BlockOperator, PointOperator>;

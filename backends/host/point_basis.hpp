@@ -25,6 +25,8 @@ class PointBasis {
   std::size_t num_coefficients() const { return static_cast<std::size_t>(CeedIntPow(K_, dim_)) * num_comp_; }
   /// Numbers of the work array that the functions below need.
   std::size_t work_size() const;
+  /// Bytes of its matrices.
+  std::size_t num_bytes() const { return matrix_.num_bytes(); }
   /// c = C u
   void to_coefficients(const CeedScalar *u, CeedScalar *c, CeedScalar *work) const;
   /// u (+)= C^T c

@@ -37,6 +37,12 @@ class PointOperator {
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// As CeedOperatorOps::linear_assemble_qfunction().
   void linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem, CeedVector values);
+  /// Bytes of its arrays and bases.
+  std::size_t num_bytes() const {
+    std::size_t bytes = sizeof *this + arena_.num_bytes();
+    for (const auto &basis : bases_) bytes += basis.num_bytes();
+    return bytes;
+  }
 
  private:
   /// A side at points has a list of its points, the others a map of their nodes.

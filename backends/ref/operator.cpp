@@ -245,7 +245,8 @@ void fill_operator_ops(CeedOperatorOps &ops) {
          .apply_add = apply_add,
          .linear_assemble_qfunction = linear_assemble_qfunction,
          .linear_assemble_add_diagonal = nullptr,
-         .linear_assemble = nullptr};
+         .linear_assemble = nullptr,
+         .get_memory = nullptr};
 }
 
 }  // namespace hg::ref

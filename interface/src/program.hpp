@@ -22,6 +22,10 @@ class Program {
   /// Whether another program has the same fields, sources, sinks and spaces in the same order, so that what a backend
   /// made for the one serves the other: they differ in points, restrictions at points and vectors alone.
   bool has_shape_of(const Program &other) const;
+  std::size_t num_bytes() const {
+    return sizeof *this + (sources_.size() + sinks_.size()) * sizeof(CeedProgramSide) +
+           spaces_.size() * sizeof(CeedProgramSpace) + (inputs_.size() + outputs_.size()) * sizeof(CeedProgramField);
+  }
 
  private:
   CeedInt side(std::vector<CeedProgramSide> &sides, CeedElemRestriction rstr, CeedVector vec);

@@ -9,6 +9,7 @@
 #include "backend_list.hpp"
 #include "conformance.hpp"
 #include "info_options.hpp"
+#include "memory_table.hpp"
 #include "support_table.hpp"
 
 namespace {
@@ -61,9 +62,8 @@ int list(const InfoOptions &options) {
   return exit_fine;
 }
 
-/// Support and check: the suite on backends, and what is printed of it.
-int examine(const InfoOptions &options) {
-  const BackendList found = or_exit(exit_usage, [&] { return list_backends(options.plugins); });
+/// Those that were asked for; without any, all that are available.
+std::vector<std::string> wanted_resources(const InfoOptions &options, const BackendList &found) {
   std::vector<std::string> resources;
   for (const std::string &request : options.resources) {
     const Resolved resolved = resolve(request);
@@ -75,6 +75,29 @@ int examine(const InfoOptions &options) {
       if (info.is_available) resources.push_back(info.resource);
     }
   }
+  return resources;
+}
+
+int show_memory(const InfoOptions &options) {
+  const BackendList found = or_exit(exit_usage, [&] { return list_backends(options.plugins); });
+  std::vector<OperatorBytes> operators;
+  nlohmann::ordered_json json = {{"library", library_json()}, {"operators", nlohmann::ordered_json::array()}};
+  bool is_fine = true;
+  for (const std::string &resource : wanted_resources(options, found)) {
+    for (OperatorBytes &one : measure_memory(resource)) {
+      json["operators"].push_back(to_json(one));
+      is_fine = is_fine && one.error.empty();
+      operators.push_back(std::move(one));
+    }
+  }
+  if (write_json(options, json)) print_memory(operators);
+  return is_fine ? exit_fine : exit_failed;
+}
+
+/// Support and check: the suite on backends, and what is printed of it.
+int examine(const InfoOptions &options) {
+  const BackendList found = or_exit(exit_usage, [&] { return list_backends(options.plugins); });
+  const std::vector<std::string> resources = wanted_resources(options, found);
   or_exit(exit_no_suite, [] { return conformance_program(); });
   const std::vector<Report> reports = run_suite(resources, options);
   nlohmann::ordered_json json = {{"library", library_json()}, {"reports", nlohmann::ordered_json::array()}};
@@ -102,7 +125,14 @@ int main(int argc, char **argv) {
   try {
     const ParsedOptions parsed = parse_options(argc, argv);
     if (!parsed.options) return parsed.exit_code;
-    return parsed.options->task == Task::list ? list(*parsed.options) : examine(*parsed.options);
+    switch (parsed.options->task) {
+      case Task::list:
+        return list(*parsed.options);
+      case Task::memory:
+        return show_memory(*parsed.options);
+      default:
+        return examine(*parsed.options);
+    }
   } catch (const Failure &failure) {
     fmt::print(stderr, "ceed-info: {}\n", failure.message);
     return failure.exit_status;

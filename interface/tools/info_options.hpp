@@ -11,7 +11,7 @@ namespace hg::info {
 /// Exit statuses of the program.
 inline constexpr int exit_fine = 0, exit_failed = 1, exit_usage = 2, exit_unavailable = 3, exit_no_suite = 4;
 
-enum class Task { list, support, check };
+enum class Task { list, support, check, memory };
 
 struct InfoOptions {
   Task task = Task::list;

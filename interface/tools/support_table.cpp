@@ -25,21 +25,6 @@ std::string cell(const Tally &tally) {
   return text;
 }
 
-/// Rows of cells in columns that are as wide as needed.
-void print_columns(const std::vector<std::vector<std::string>> &rows) {
-  std::vector<std::size_t> widths;
-  for (const auto &row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); i++) widths[i] = std::max(widths[i], row[i].size());
-  }
-  for (const auto &row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); i++) line += fmt::format("{:<{}}", row[i], widths[i] + 2);
-    line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
-  }
-}
-
 /// Areas, or cases of an area, that any of the reports has; sorted.
 template <typename Key>
 std::vector<std::string> keys_of(const std::vector<Report> &reports, Key &&key) {
@@ -59,6 +44,20 @@ std::string full_name(const Case &one) {
 }
 
 }  // namespace
+
+void print_columns(const std::vector<std::vector<std::string>> &rows) {
+  std::vector<std::size_t> widths;
+  for (const auto &row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); i++) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (const auto &row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); i++) line += fmt::format("{:<{}}", row[i], widths[i] + 2);
+    line.erase(line.find_last_not_of(' ') + 1);
+    fmt::print("{}\n", line);
+  }
+}
 
 void print_support(const std::vector<Report> &reports, bool is_detailed) {
   std::vector<std::vector<std::string>> rows{{"capability"}};

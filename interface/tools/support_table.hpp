@@ -2,6 +2,7 @@
 /// What backends can do, as the conformance suite found it.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "conformance.hpp"
@@ -12,5 +13,8 @@ namespace hg::info {
 void print_support(const std::vector<Report> &reports, bool is_detailed);
 /// One backend: what failed and what was skipped, with messages, and the numbers.
 void print_check(const Report &report);
+
+/// Rows of cells in columns that are as wide as needed.
+void print_columns(const std::vector<std::vector<std::string>> &rows);
 
 }  // namespace hg::info

@@ -173,6 +173,19 @@ TEST(Avx, CallsTheFunctionOnceForEachPoint) {
   }
 }
 
+/// Arrays are those of a block: their size does not depend on the mesh.
+TEST(Avx, KeepsNoMoreForALargerMesh) {
+  for (const char *resource : {blocked, "/cpu/self/avx/serial"}) {
+    const CeedHandle ceed{open(resource)};
+    const LineOperator small(ceed, 19, 1, weigh), large(ceed, 1900, 1, weigh);
+    CeedOperatorMemory of_small{}, of_large{};
+    ok(CeedOperatorGetMemory(small.op, &of_small));
+    ok(CeedOperatorGetMemory(large.op, &of_large));
+    EXPECT_GT(of_small.backend, 0);
+    EXPECT_EQ(of_large.backend, of_small.backend);
+  }
+}
+
 /// A solver that gets an error tries again with a smaller step, on the same operator.
 TEST(Avx, IsRightAfterAFunctionThatFailed) {
   const CeedHandle ceed{open(blocked)};

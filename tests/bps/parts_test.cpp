@@ -32,10 +32,12 @@ TEST(Problems, CountTheirWork) {
   const Problem &bp3 = *find_problem("bp3");
   const Work work = work_at_quadrature(bp3, 1, 1000, 1331);
   EXPECT_DOUBLE_EQ(work.bytes, 16. * 1331 + 4. * 8 * 1000 + 8. * 6 * 27 * 1000);
+  EXPECT_DOUBLE_EQ(work.held_bytes, work.bytes - 16. * 1331);
   // P = 2, Q = 3: a chain is 2 (8·3 + 4·9 + 2·27) = 228; three derivative sets, forward and transposed
   EXPECT_DOUBLE_EQ(work.flops, 1000 * (6 * 228. + 15 * 27));
   const Work at_points = work_at_points(*find_problem("bp2"), 2, 10, 1000, 270);
   EXPECT_DOUBLE_EQ(at_points.bytes, 16. * 1000 + 4. * 27 * 10 + 8. * 4 * 270);
+  EXPECT_DOUBLE_EQ(at_points.held_bytes, at_points.bytes - 16. * 1000 + 4. * 270);
   EXPECT_DOUBLE_EQ(at_points.flops, 270 * (6 * 2. * (27 + 9 + 3) + 3));
 }
 

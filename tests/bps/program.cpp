@@ -23,10 +23,11 @@ void expect_record(const nlohmann::json &r) {
   const std::set<std::string> strings{"program", "problem", "ceed", "cpu", "library_version"};
   const std::set<std::string> integers{"degree", "q_1d",        "elements",      "dofs",
                                        "points", "repetitions", "cg_iterations", "ranks"};
-  const std::set<std::string> numbers{"mdofs_per_s",  "mpoints_per_s", "gb_per_s",      "flops",
-                                      "gflops_per_s", "cg_seconds",    "cg_mdofs_per_s"};
+  const std::set<std::string> numbers{"mdofs_per_s",  "mpoints_per_s", "gb_per_s",       "flops",
+                                      "gflops_per_s", "cg_seconds",    "cg_mdofs_per_s", "compulsory_memory"};
   const std::set<std::string> nullable{"points_per_cell", "placement", "error", "error_h1"};
-  std::set<std::string> known{"seconds_per_apply", "cg_converged"};
+  const std::set<std::string> parts{"program", "restrictions", "bases", "vectors", "assembly", "backend"};
+  std::set<std::string> known{"seconds_per_apply", "cg_converged", "memory", "memory_ratio"};
   for (const auto &names : {strings, integers, numbers, nullable}) known.insert(names.begin(), names.end());
   for (const auto &name : known) ASSERT_TRUE(r.contains(name)) << name;
   for (const auto &item : r.items()) EXPECT_TRUE(known.contains(item.key())) << item.key() << " is not in the schema";
@@ -36,6 +37,19 @@ void expect_record(const nlohmann::json &r) {
   EXPECT_EQ(r["points_per_cell"].is_null(), r["placement"].is_null());
   EXPECT_EQ(r["error"].is_null(), !r["cg_converged"].get<bool>());
   EXPECT_EQ(r["error_h1"].is_null(), !r["cg_converged"].get<bool>());
+
+  // These programs run with libraries that do not count; this one does.
+  long long total = 0;
+  ASSERT_EQ(r["memory"].size(), parts.size() + 1);
+  for (const auto &name : parts) {
+    const long long bytes = r["memory"].at(name);
+    EXPECT_GE(bytes, 0) << name;
+    total += bytes;
+  }
+  EXPECT_EQ(r["memory"]["total"].get<long long>(), total);
+  const double ratio = r["memory_ratio"];
+  EXPECT_NEAR(ratio, total / r["compulsory_memory"].get<double>(), 1e-12 * ratio);
+  EXPECT_GE(ratio, 1);
 
   const double best = r["seconds_per_apply"]["best"], median = r["seconds_per_apply"]["median"], dofs = r["dofs"];
   EXPECT_GT(best, 0);

@@ -303,6 +303,28 @@ TEST_P(OperatorTest, EstimatesFlops) {
   }
 }
 
+/// What the core counts follows from the mesh; what a backend keeps is there after the first application, and applying
+/// again adds nothing.
+TEST_P(OperatorTest, CountsItsMemory) {
+  constexpr CeedInt P_1d = 3, Q_1d = 4;
+  for (const CeedInt n : {1, 3}) {
+    const Box mesh(3, n, P_1d);
+    const EllipticOperator poisson(ceed, mesh, Elliptic::poisson, 1, Q_1d);
+    const Values in(poisson.size(), 1);
+    poisson.apply(in);
+    CeedOperatorMemory memory{}, again{};
+    ok(CeedOperatorGetMemory(poisson.op, &memory));
+    EXPECT_EQ(memory.restrictions, static_cast<CeedSize>(sizeof(CeedInt)) * mesh.num_elem * P_1d * P_1d * P_1d);
+    EXPECT_EQ(memory.vectors, static_cast<CeedSize>(sizeof(CeedScalar)) * mesh.num_elem * 6 * Q_1d * Q_1d * Q_1d);
+    EXPECT_GE(memory.bases, static_cast<CeedSize>(2 * P_1d * Q_1d * sizeof(CeedScalar)));
+    EXPECT_GT(memory.program, 0);
+    EXPECT_GE(memory.backend, 0);
+    for (int i = 0; i < 3; i++) poisson.apply(in);
+    ok(CeedOperatorGetMemory(poisson.op, &again));
+    EXPECT_EQ(again.total, memory.total);
+  }
+}
+
 TEST_P(OperatorTest, KeepsNamesAndFields) {
   const Box mesh(1, 2, 2);
   const AffineOperator op(ceed, mesh, 3, 1, {1, 0, 0, false});

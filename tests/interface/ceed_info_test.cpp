@@ -146,6 +146,38 @@ TEST(CeedInfo, PrintsTheTableOfSupport) {
   EXPECT_HAS(detail.out, "failed\n");
 }
 
+TEST(CeedInfo, PrintsTheMemoryOfOperators) {
+  const Finished printed = ceed_info("--memory --ceed /cpu/self/ref/serial");
+  ASSERT_EQ(printed.code, 0) << printed.err;
+  EXPECT_HAS(printed.out, "4096 hexahedra, 64 quadrature points each");
+  EXPECT_HAS(printed.out, "4096 hexahedra, 27 points each");
+  EXPECT_HAS(printed.out, "/cpu/self/ref/serial");
+
+  const Finished listed = ceed_info("--memory --json -");
+  ASSERT_EQ(listed.code, 0) << listed.err;
+  const Json operators = Json::parse(listed.out)["operators"];
+  ASSERT_GE(operators.size(), 2u);
+  for (const Json &one : operators) {
+    SCOPED_TRACE(one.dump());
+    long long sum = 0;
+    for (const auto &[part, bytes] : one["memory"].items()) sum += part == "total" ? 0 : bytes.get<long long>();
+    EXPECT_EQ(one["memory"]["total"], sum);
+    EXPECT_GE(sum, one["compulsory"].get<long long>());
+    const bool is_at_points = one["operator"].get<std::string>().find("quadrature") == std::string::npos;
+    // 27 offsets; 64 times 6 numbers, or 27 times 6 numbers, 3 coordinates and a place.
+    EXPECT_EQ(one["compulsory"], 4096 * (27 * 4 + (is_at_points ? 27 * (9 * 8 + 4) : 64 * 6 * 8)));
+    EXPECT_EQ(one["memory"]["vectors"], 4096 * 8 * (is_at_points ? 27 * 9 : 64 * 6));
+  }
+}
+
+TEST(CeedInfo, TellsWhyItCannotMeasureMemory) {
+  const std::string environment = "CEED_PLUGIN_PATH=" + plugin("everything");
+  const Finished printed = ceed_info("--memory --ceed /test/everything", environment);
+  EXPECT_EQ(printed.code, 1);
+  EXPECT_HAS(printed.out, "/test/everything");
+  EXPECT_EQ(ceed_info("--memory --ceed /no/such/backend").code, 3);
+}
+
 TEST(CeedInfo, WritesJson) {
   const TemporaryFolder folder;
   const auto file = folder / "info.json";
@@ -172,6 +204,8 @@ TEST(CeedInfo, RefusesWhatItDoesNotKnow) {
   refused("--check ''", 2, "--check");
   refused("--check /cpu/self --support", 2, "--support");
   refused("--ceed /cpu/self", 2, "--support");
+  refused("--memory --support", 2, "--support");
+  refused("--memory --check /cpu/self", 2, "--check");
   refused("--detail", 2, "--support");
   refused("--cases '*'", 2, "--check");
   refused("--plugin /no/such.so", 2, "/no/such.so");

@@ -300,6 +300,8 @@ void use_operator(Ceed ceed) {
   apply_and_expect(ceed, doubled.op, 5, 6, "action with another context");
   CeedSize flops = 0;
   must(CeedOperatorGetFlopsEstimate(doubled.op, &flops));
+  CeedOperatorMemory memory{};
+  must(CeedOperatorGetMemory(doubled.op, &memory));
   must(CeedOperatorView(doubled.op, nowhere()));
 }
 

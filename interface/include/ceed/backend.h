@@ -414,6 +414,22 @@ CEED_EXTERN int CeedOperatorGetData(CeedOperator op, void *data);
 CEED_EXTERN int CeedOperatorSetData(CeedOperator op, void *data);
 /// Counts one reference more.
 CEED_EXTERN int CeedOperatorReference(CeedOperator op);
+
+/// Bytes that an operator works with, beside its active input and output. An array that several fields or parts share
+/// counts once; one that was lent by its user counts, too.
+typedef struct {
+  CeedSize program;       ///< the operator itself, lowered, and the context of its QFunction
+  CeedSize restrictions;  ///< offsets and orientations
+  CeedSize bases;         ///< matrices, points and weights
+  CeedSize vectors;       ///< passive inputs and outputs, and the coordinates of points
+  CeedSize assembly;      ///< an assembled QFunction that is kept for further assemblies
+  CeedSize backend;       ///< what the backend keeps for it: its own forms of the above, and arrays to work on
+  CeedSize total;         ///< the sum
+} CeedOperatorMemory;
+/// Counts them in *memory. What a backend makes only when the operator is applied is there from then on. Errors: those
+/// of CeedOperatorCheckReady(), which is called where it was not (CEED_ERROR_INCOMPLETE, CEED_ERROR_DIMENSION,
+/// CEED_ERROR_INCOMPATIBLE).
+CEED_EXTERN int CeedOperatorGetMemory(CeedOperator op, CeedOperatorMemory *memory);
 /// @}
 
 #endif

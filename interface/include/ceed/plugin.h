@@ -197,6 +197,8 @@ typedef struct {
   int (*linear_assemble_add_diagonal)(CeedOperator op, const CeedProgram *program, CeedVector diagonal);
   /// Entries in the order of CeedOperatorLinearAssembleSymbolic() from values[offset] on; optional as above.
   int (*linear_assemble)(CeedOperator op, const CeedProgram *program, CeedSize offset, CeedVector values);
+  /// Bytes that the backend keeps for the operator between applications; optional: none. It reads what `create` made.
+  int (*get_memory)(CeedOperator op, CeedSize *bytes);
 } CeedOperatorOps;
 
 /// Contexts, whose data the core keeps on the host. A backend may watch them; all entries are optional.
