@@ -47,6 +47,13 @@ int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVe
   });
 }
 
+int get_memory(CeedOperator op, CeedSize *bytes) {
+  return host::wall(CeedOperatorReturnCeed(op), [&] {
+    const Operator *own = operator_of(op);
+    *bytes = own != nullptr ? static_cast<CeedSize>(own->num_bytes()) : 0;
+  });
+}
+
 /// A function of the parent that assembles, with the QFunction compiled.
 template <auto function, typename... Args>
 int assemble(CeedOperator op, const CeedProgram *program, Args... args) {
@@ -65,6 +72,7 @@ int init(Ceed, const char *, CeedBackendOps *ops) {
   ops->op.create = create;
   ops->op.destroy = destroy;
   ops->op.apply_add = apply_add;
+  ops->op.get_memory = get_memory;
   ops->op.linear_assemble_qfunction = assemble<&CeedOperatorOps::linear_assemble_qfunction>;
   if (ops->op.linear_assemble_add_diagonal != nullptr) {
     ops->op.linear_assemble_add_diagonal = assemble<&CeedOperatorOps::linear_assemble_add_diagonal>;

@@ -65,6 +65,7 @@ void Operator::compile(const CeedProgram &program, bool with_loop) {
     set_function(library.function);
     if (library.apply == nullptr) return;
     work_ = host::allocate_array(printed.work);
+    work_length_ = printed.work;
     if (!work_) throw std::bad_alloc();
     std::fill_n(work_.get(), printed.work, 0.0);
     numbers_ = std::move(printed.numbers);
@@ -74,6 +75,14 @@ void Operator::compile(const CeedProgram &program, bool with_loop) {
     tell_once("gen: the QFunction '" + std::string(name) +
               "' is not compiled, and runs as on /cpu/self/avx/blocked: " + reason.what());
   }
+}
+
+std::size_t Operator::num_bytes() const {
+  std::size_t bytes = host::Operator::num_bytes() + sizeof *this - sizeof(host::Operator);
+  bytes += work_length_ * sizeof(CeedScalar) + numbers_.size() * sizeof(const CeedScalar *);
+  for (const auto &basis : block_bases_) bytes += basis.num_bytes();
+  for (const auto &basis : point_bases_) bytes += basis.num_bytes();
+  return bytes;
 }
 
 Printed Operator::print(const CeedProgram &program, const std::string &function) {

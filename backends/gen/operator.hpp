@@ -28,6 +28,8 @@ class Operator : public host::Operator {
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// To be called before an assembly: compiles the QFunction alone, where the loop has not been compiled.
   void prepare_assembly(const CeedProgram &program);
+  /// As CeedOperatorOps::get_memory(): both operators. Compiled code is the process's.
+  std::size_t num_bytes() const;
 
  private:
   Operator(host::Operator &&interpreted, const host::Kernels &kernels);
@@ -39,6 +41,7 @@ class Operator : public host::Operator {
   std::vector<host::PointBasis> point_bases_;
   std::vector<const CeedScalar *> numbers_;
   host::Array work_;
+  std::size_t work_length_ = 0;
   bool has_function_ = false, has_loop_ = false;  ///< compiled, or tried in vain
   Apply apply_ = nullptr;                         ///< the loop; NULL where there is none
 };
