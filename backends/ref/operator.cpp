@@ -246,6 +246,7 @@ void fill_operator_ops(CeedOperatorOps &ops) {
          .linear_assemble_qfunction = linear_assemble_qfunction,
          .linear_assemble_add_diagonal = nullptr,
          .linear_assemble = nullptr,
+         .linear_assemble_elements = nullptr,
          .get_memory = nullptr};
 }
 

@@ -40,8 +40,7 @@ void assemble(CeedOperator_private &op, CeedSize offset, CeedVector values) {
     hg::check(op.ceed->ops.op.linear_assemble(&op, &program, offset, values));
     return;
   }
-  hg::Tabulation tabulation(program);
-  const auto all = hg::couplings(program, tabulation);
+  const auto all = hg::couplings(program);
   // Entries stand coupling by coupling; elements are walked once.
   std::vector<CeedSize> places;
   for (const hg::Coupling &coupling : all) {
@@ -49,12 +48,17 @@ void assemble(CeedOperator_private &op, CeedSize offset, CeedVector values) {
     for (CeedInt e = 0; e < program.num_elem; e++) offset += coupling.num_entries(e);
   }
   const hg::WriteArray array(values);
+  hg::FunctionTables functions(program, all);
   hg::ElementMatrix matrix;
-  hg::for_each_assembled_element(op, program, [&](CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
-    tabulation.move_to(e);
+  hg::for_each_assembled(op, program, [&](const hg::AssembledElements &elements) {
     for (std::size_t i = 0; i < all.size(); i++) {
-      matrix.compute(all[i], e, Q, D, array.data() + places[i]);
-      places[i] += all[i].num_entries(e);
+      CeedScalar *K = array.data() + places[i];
+      for (CeedInt e = elements.first; e < elements.last; e++) places[i] += all[i].num_entries(e);
+      if (hg::contract_on_backend(op, all[i], CEED_ASSEMBLE_MATRIX, elements, K)) continue;
+      elements.for_each([&](CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
+        matrix.compute(functions.move_to(i, e), e, Q, D, K);
+        K += all[i].num_entries(e);
+      });
     }
   });
 }
@@ -111,8 +115,9 @@ IndexArrays allocate_indices(const CeedOperator_private &op, CeedSize count) {
 // Flops: 2 L K P for D B and 2 L P M for the product, for each pair of components and point, with K rows of trial and L
 // rows of test functions. The second is the floor of a dense product; for a 3-vector Poisson problem with 27 nodes and
 // 64 points the two are 0.28 and 2.5 million.
-void ElementMatrix::compute(const Coupling &coupling, CeedInt e, CeedInt Q, const PointMatrices &D, CeedScalar *K) {
-  const Functions &trial = coupling.trial, &test = coupling.test;
+void ElementMatrix::compute(const CoupledFunctions &functions, CeedInt e, CeedInt Q, const PointMatrices &D,
+                            CeedScalar *K) {
+  const Functions &trial = functions.trial, &test = functions.test;
   const CeedInt P = trial.rstr().num_nodes(e), M = test.rstr().num_nodes(e), L = test.num_rows();
   const CeedInt P_padded = pad_to_tile(P), M_padded = pad_to_tile(M);
   const CeedSize num_columns = static_cast<CeedSize>(trial.num_comp()) * P;

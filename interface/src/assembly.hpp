@@ -45,10 +45,29 @@ class PointMatrices {
   CeedSize point_stride_, component_stride_;
 };
 
-/// Calls visit(e, Q, D) for each element with its Q points and its assembled QFunction: from what is kept where the
-/// user asked for reuse, else assembled for some elements after others, so that memory does not grow with the mesh.
-void for_each_assembled_element(CeedOperator_private &op, const CeedProgram &program,
-                                const std::function<void(CeedInt, CeedInt, const PointMatrices &)> &visit);
+/// The elements [first, last) with their assembled QFunctions, one element after another.
+struct AssembledElements {
+  const CeedProgram &program;
+  CeedInt first, last;
+  const CeedScalar *values;  ///< NULL where there are no points
+
+  /// Calls visit(e, Q, D) for each element with its Q points.
+  template <typename Visit>
+  void for_each(Visit &&visit) const {
+    const CeedSize num_comp = static_cast<CeedSize>(program.num_active_in) * program.num_active_out;
+    const CeedScalar *of_element = values;
+    for (CeedInt e = first; e < last; e++) {
+      const CeedInt Q = num_points(program, e);
+      visit(e, Q, PointMatrices(program, of_element, Q));
+      of_element += Q * num_comp;
+    }
+  }
+};
+
+/// Calls visit(elements) for some elements after others, so that memory does not grow with the mesh: from what is kept
+/// where the user asked for reuse, else assembled there and then.
+void for_each_assembled(CeedOperator_private &op, const CeedProgram &program,
+                        const std::function<void(const AssembledElements &)> &visit);
 
 /// Functions in one evaluation mode, at the points of an element: value d of function n at point q is
 /// values[q*point_stride + d*value_stride + n].
@@ -128,15 +147,39 @@ class Functions {
 
 /// The coupling of one active source with one active sink.
 struct Coupling {
-  Functions trial, test;
+  CeedInt source, sink;
+  const CeedElemRestriction_private &trial, &test;
 
   CeedSize num_entries(CeedInt e) const {
-    return static_cast<CeedSize>(trial.rstr().num_nodes(e)) * trial.num_comp() * test.rstr().num_nodes(e) *
-           test.num_comp();
+    return static_cast<CeedSize>(trial.num_nodes(e)) * trial.num_comp * test.num_nodes(e) * test.num_comp;
   }
 };
 /// All couplings, in the order of the entries of the assembled matrix: by source, then by sink.
-std::vector<Coupling> couplings(const CeedProgram &program, const Tabulation &tabulation);
+std::vector<Coupling> couplings(const CeedProgram &program);
+
+/// Whether the backend contracted; see CeedOperatorOps::linear_assemble_elements.
+bool contract_on_backend(CeedOperator_private &op, const Coupling &coupling, CeedAssembleKind kind,
+                         const AssembledElements &elements, CeedScalar *entries);
+
+/// The functions of a coupling at the points of an element.
+struct CoupledFunctions {
+  Functions trial, test;
+};
+
+/// Those of all couplings; tables are made when the first element comes.
+class FunctionTables {
+ public:
+  FunctionTables(const CeedProgram &program, const std::vector<Coupling> &all) : program_(program), all_(all) {}
+  /// Coupling i at element e; the reference holds as long as the object.
+  const CoupledFunctions &move_to(std::size_t i, CeedInt e);
+
+ private:
+  const CeedProgram &program_;
+  const std::vector<Coupling> &all_;
+  std::optional<Tabulation> tabulation_;
+  std::vector<CoupledFunctions> functions_;
+  CeedInt element_ = -1;
+};
 
 /// Rows and columns of entries, for the user to free with free().
 struct IndexArrays {
@@ -155,7 +198,7 @@ class ElementMatrix {
  public:
   /// K: rows (component, node) of the test functions, columns (component, node) of the trial functions, row-major; it
   /// is overwritten.
-  void compute(const Coupling &coupling, CeedInt e, CeedInt Q, const PointMatrices &D, CeedScalar *K);
+  void compute(const CoupledFunctions &functions, CeedInt e, CeedInt Q, const PointMatrices &D, CeedScalar *K);
 
  private:
   std::vector<CeedScalar> test_, DB_;

@@ -84,9 +84,9 @@ class ElementDiagonal {
   /// of all that couples them. Flops: for each point and each two rows P for the products, and 2 P for each pair of
   /// components, which is the floor without sum factorisation: for a 3-vector Poisson problem with 27 nodes and 64
   /// points 10 and 62 thousand.
-  const std::vector<CeedScalar> &compute(const hg::Coupling &coupling, CeedInt P, CeedInt Q, const hg::PointMatrices &D,
-                                         const std::vector<ComponentPair> &pairs) {
-    const hg::Functions &trial = coupling.trial, &test = coupling.test;
+  const std::vector<CeedScalar> &compute(const hg::CoupledFunctions &functions, CeedInt P, CeedInt Q,
+                                         const hg::PointMatrices &D, const std::vector<ComponentPair> &pairs) {
+    const hg::Functions &trial = functions.trial, &test = functions.test;
     const auto num_pairs = static_cast<CeedInt>(pairs.size());
     const CeedInt P_padded = hg::pad_to_tile(P), pairs_padded = hg::pad_to_tile(num_pairs), K = trial.num_rows(),
                   L = test.num_rows();
@@ -141,44 +141,62 @@ bool has_common_entry(const std::vector<CeedSize> &a, const std::vector<CeedSize
   return false;
 }
 
-/// Adds entries of one operator. is_block: array has the layout of the blocks, else it is the diagonal.
+/// Adds entries of one coupling. is_block: array has the layout of the blocks, else it is the diagonal.
 class Adder {
  public:
-  Adder(CeedScalar *array, bool is_block, const BlockLayout &layout)
-      : array_(array), is_block_(is_block), layout_(layout) {}
+  Adder(CeedOperator_private &op, const hg::Coupling &coupling, CeedScalar *array, bool is_block,
+        const BlockLayout &layout)
+      : op_(op),
+        coupling_(coupling),
+        array_(array),
+        is_block_(is_block),
+        is_one_space_(&coupling.trial == &coupling.test || hg::equal(coupling.trial, coupling.test)),
+        layout_(layout),
+        pairs_(component_pairs(coupling.trial.num_comp, is_block)) {}
 
-  void add(const hg::Coupling &coupling, CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
-    const CeedElemRestriction_private &trial = coupling.trial.rstr(), &test = coupling.test.rstr();
-    const bool is_one_space = &trial == &test || hg::equal(trial, test);
-    sorted_places(trial, e, trial_places_);
-    const bool is_simple =
-        is_one_space && std::adjacent_find(trial_places_.begin(), trial_places_.end()) == trial_places_.end();
-    if (is_simple) return add_simple(coupling, e, Q, D);
-    if (!is_one_space) {
-      sorted_places(test, e, test_places_);
-      if (!has_common_entry(trial_places_, test_places_)) return;
-    }
-    add_matching(coupling, e, Q, D);
+  /// functions(e): those of the coupling at element e
+  template <typename FunctionsAt>
+  void add(const hg::AssembledElements &elements, FunctionsAt &&functions) {
+    const CeedElemRestriction_private &rstr = coupling_.trial;
+    CeedSize num_entries = 0, place = 0;
+    const auto count = [&](CeedInt e) { return rstr.num_nodes(e) * static_cast<CeedSize>(pairs_.size()); };
+    for (CeedInt e = elements.first; is_one_space_ && e < elements.last; e++) num_entries += count(e);
+    contracted_.resize(static_cast<std::size_t>(num_entries));
+    const bool is_contracted =
+        is_one_space_ &&
+        hg::contract_on_backend(op_, coupling_, is_block_ ? CEED_ASSEMBLE_POINT_BLOCKS : CEED_ASSEMBLE_DIAGONAL,
+                                elements, contracted_.data());
+    elements.for_each([&](CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
+      const CeedScalar *entries = contracted_.data() + std::exchange(place, place + count(e));
+      if (Q == 0 || !meets(e)) return;
+      if (!is_simple_) return add_matching(functions(e), e, Q, D);
+      add_simple(is_contracted ? entries : diagonal_.compute(functions(e), rstr.num_nodes(e), Q, D, pairs_).data(), e);
+    });
   }
 
  private:
-  /// Each node meets itself alone.
-  void add_simple(const hg::Coupling &coupling, CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
-    const CeedElemRestriction_private &rstr = coupling.trial.rstr();
-    const CeedInt P = rstr.num_nodes(e);
-    if (pairs_.empty()) pairs_ = component_pairs(rstr.num_comp, is_block_);
-    const std::vector<CeedScalar> &entries = diagonal_.compute(coupling, P, Q, D, pairs_);
-    for (std::size_t i = 0; i < pairs_.size(); i++) {
-      for (CeedInt n = 0; n < P; n++) array_[place(rstr, e, n, pairs_[i])] += entries[i * P + n];
+  /// Whether rows and columns share entries of the L-vector; is_simple_: each node meets itself alone.
+  bool meets(CeedInt e) {
+    sorted_places(coupling_.trial, e, trial_places_);
+    is_simple_ = is_one_space_ && std::adjacent_find(trial_places_.begin(), trial_places_.end()) == trial_places_.end();
+    if (is_one_space_) return true;
+    sorted_places(coupling_.test, e, test_places_);
+    return has_common_entry(trial_places_, test_places_);
+  }
+
+  void add_simple(const CeedScalar *entries, CeedInt e) {
+    const CeedInt P = coupling_.trial.num_nodes(e);
+    for (const ComponentPair &pair : pairs_) {
+      for (CeedInt n = 0; n < P; n++) array_[place(coupling_.trial, e, n, pair)] += *entries++;
     }
   }
 
   /// Two spaces that share entries of the L-vector, or elements that meet a node twice: entries of the element's matrix
   /// whose row and column are one place, or belong to one node.
-  void add_matching(const hg::Coupling &coupling, CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
-    const CeedElemRestriction_private &trial = coupling.trial.rstr(), &test = coupling.test.rstr();
-    entries_.resize(static_cast<std::size_t>(coupling.num_entries(e)));
-    matrix_.compute(coupling, e, Q, D, entries_.data());
+  void add_matching(const hg::CoupledFunctions &functions, CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
+    const CeedElemRestriction_private &trial = coupling_.trial, &test = coupling_.test;
+    entries_.resize(static_cast<std::size_t>(coupling_.num_entries(e)));
+    matrix_.compute(functions, e, Q, D, entries_.data());
     const CeedScalar *entry = entries_.data();
     for (CeedInt r = 0; r < test.num_comp; r++) {
       for (CeedInt m = 0; m < test.num_nodes(e); m++) {
@@ -197,14 +215,16 @@ class Adder {
     return layout_.block(rstr.place(e, n, 0)) + static_cast<CeedSize>(pair.row) * layout_.num_comp + pair.column;
   }
 
+  CeedOperator_private &op_;
+  const hg::Coupling &coupling_;
   CeedScalar *array_;
-  bool is_block_;
+  bool is_block_, is_one_space_, is_simple_ = false;
   BlockLayout layout_;
+  std::vector<ComponentPair> pairs_;
   ElementDiagonal diagonal_;
   hg::ElementMatrix matrix_;
-  std::vector<ComponentPair> pairs_;
   std::vector<CeedSize> trial_places_, test_places_;
-  std::vector<CeedScalar> entries_;
+  std::vector<CeedScalar> contracted_, entries_;
 };
 
 void add_entries(CeedOperator_private &op, CeedVector assembled, bool is_block, const BlockLayout &layout) {
@@ -214,15 +234,15 @@ void add_entries(CeedOperator_private &op, CeedVector assembled, bool is_block, 
     hg::check(op.ceed->ops.op.linear_assemble_add_diagonal(&op, &program, assembled));
     return;
   }
-  hg::Tabulation tabulation(program);
-  const auto all = hg::couplings(program, tabulation);
+  const auto all = hg::couplings(program);
+  hg::FunctionTables functions(program, all);
   const hg::WriteArray array(assembled);
-  // The pairs of components depend on the space, so each coupling has its own.
-  std::vector<Adder> adders(all.size(), Adder(array.data(), is_block, layout));
-  hg::for_each_assembled_element(op, program, [&](CeedInt e, CeedInt Q, const hg::PointMatrices &D) {
-    if (Q == 0) return;
-    tabulation.move_to(e);
-    for (std::size_t i = 0; i < all.size(); i++) adders[i].add(all[i], e, Q, D);
+  std::vector<Adder> adders;
+  for (const hg::Coupling &coupling : all) adders.emplace_back(op, coupling, array.data(), is_block, layout);
+  hg::for_each_assembled(op, program, [&](const hg::AssembledElements &elements) {
+    for (std::size_t i = 0; i < all.size(); i++) {
+      adders[i].add(elements, [&](CeedInt e) -> const hg::CoupledFunctions & { return functions.move_to(i, e); });
+    }
   });
 }
 

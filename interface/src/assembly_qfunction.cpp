@@ -8,8 +8,10 @@ namespace {
 using hg::require;
 using hg::text;
 
-/// Values of assembled QFunctions that are held at once: bounds the memory of diagonal and full assembly.
-constexpr CeedSize chunk_values = CeedSize{1} << 20;
+/// Values of assembled QFunctions that are held at once by diagonal and full assembly: few enough to stay in the second
+/// cache, but those of one group of elements at least, as many as backends work on side by side.
+constexpr CeedSize chunk_values = CeedSize{1} << 16;
+constexpr CeedInt chunk_group = 8;
 
 /// Number of points of all elements.
 CeedSize total_points(const CeedProgram &program) {
@@ -17,6 +19,29 @@ CeedSize total_points(const CeedProgram &program) {
   CeedSize count = 0;
   for (CeedInt e = 0; e < program.num_elem; e++) count += hg::num_points(program, e);
   return count;
+}
+
+/// Calls visit(first, last, values) for elements [first, last) and the number of values of their assembled QFunctions.
+template <typename Visit>
+void for_each_chunk(const CeedProgram &program, Visit &&visit) {
+  const CeedSize num_comp = static_cast<CeedSize>(program.num_active_in) * program.num_active_out;
+  const auto group_end = [&](CeedInt e) { return e + std::min(chunk_group, program.num_elem - e); };
+  const auto size = [&](CeedInt first, CeedInt last) {
+    CeedSize count = 0;
+    for (CeedInt e = first; e < last; e++) count += hg::num_points(program, e) * num_comp;
+    return count;
+  };
+  for (CeedInt first = 0, last = 0; first < program.num_elem; first = last) {
+    last = group_end(first);
+    CeedSize count = size(first, last);
+    while (last < program.num_elem) {
+      const CeedSize next = size(last, group_end(last));
+      if (count + next > chunk_values) break;
+      count += next;
+      last = group_end(last);
+    }
+    visit(first, last, count);
+  }
 }
 
 /// Restriction of the assembled QFunction: all its components at all points.
@@ -77,17 +102,9 @@ void require_linearisable(const CeedOperator_private &op, const CeedProgram &pro
   });
 }
 
-void for_each_assembled_element(CeedOperator_private &op, const CeedProgram &program,
-                                const std::function<void(CeedInt, CeedInt, const PointMatrices &)> &visit) {
+void for_each_assembled(CeedOperator_private &op, const CeedProgram &program,
+                        const std::function<void(const AssembledElements &)> &visit) {
   require_linearisable(op, program);
-  const CeedSize num_comp = static_cast<CeedSize>(program.num_active_in) * program.num_active_out;
-  const auto walk = [&](const CeedScalar *values, CeedInt first, CeedInt last) {
-    for (CeedInt e = first; e < last; e++) {
-      const CeedInt Q = num_points(program, e);
-      visit(e, Q, PointMatrices(program, values, Q));
-      values += Q * num_comp;
-    }
-  };
   if (op.reuses_assembly) {
     CeedVector assembled = nullptr;
     CeedElemRestriction rstr = nullptr;
@@ -95,29 +112,35 @@ void for_each_assembled_element(CeedOperator_private &op, const CeedProgram &pro
     const auto held_vector = Ref<CeedVector_private>::adopt(assembled);
     const auto held_rstr = Ref<CeedElemRestriction_private>::adopt(rstr);
     const ReadArray array(assembled);
-    walk(array.data(), 0, program.num_elem);
+    const CeedScalar *values = array.data();
+    for_each_chunk(program, [&](CeedInt first, CeedInt last, CeedSize count) {
+      visit({program, first, last, values});
+      values += count;
+    });
     return;
   }
   Ref<CeedVector_private> values;
-  for (CeedInt first = 0, last = 0; first < program.num_elem; first = last) {
-    CeedSize count = 0;
-    do {
-      count += num_points(program, last++) * num_comp;
-    } while (last < program.num_elem && count + num_points(program, last) * num_comp <= chunk_values);
-    if (count == 0) {
-      walk(nullptr, first, last);
-      continue;
-    }
+  for_each_chunk(program, [&](CeedInt first, CeedInt last, CeedSize count) {
+    if (count == 0) return visit({program, first, last, nullptr});
     if (!values || values->length < count) {
       CeedVector created = nullptr;
-      const CeedSize all = total_points(program) * num_comp;
-      check(CeedVectorCreate(op.ceed.get(), std::max(count, std::min(all, chunk_values)), &created));
+      check(CeedVectorCreate(op.ceed.get(), count, &created));
       values = Ref<CeedVector_private>::adopt(created);
     }
     check(op.ceed->ops.op.linear_assemble_qfunction(&op, &program, first, last - first, values.get()));
     const ReadArray array(values.get());
-    walk(array.data(), first, last);
-  }
+    visit({program, first, last, array.data()});
+  });
+}
+
+bool contract_on_backend(CeedOperator_private &op, const Coupling &coupling, CeedAssembleKind kind,
+                         const AssembledElements &elements, CeedScalar *entries) {
+  const auto contract = op.ceed->ops.op.linear_assemble_elements;
+  if (contract == nullptr || elements.values == nullptr) return false;
+  bool is_done = false;
+  check(contract(&op, &elements.program, coupling.source, coupling.sink, kind, elements.first,
+                 elements.last - elements.first, elements.values, entries, &is_done));
+  return is_done;
 }
 
 }  // namespace hg

@@ -179,15 +179,28 @@ Functions::Functions(const CeedProgram &program, const Tabulation &tabulation, b
   }
 }
 
-std::vector<Coupling> couplings(const CeedProgram &program, const Tabulation &tabulation) {
+std::vector<Coupling> couplings(const CeedProgram &program) {
   std::vector<Coupling> all;
   for (CeedInt s = 0; s < program.num_sources; s++) {
     for (CeedInt t = 0; t < program.num_sinks; t++) {
       if (!program.sources[s].is_active || !program.sinks[t].is_active) continue;
-      all.push_back({Functions(program, tabulation, true, s), Functions(program, tabulation, false, t)});
+      all.push_back({s, t, *program.sources[s].rstr, *program.sinks[t].rstr});
     }
   }
   return all;
+}
+
+const CoupledFunctions &FunctionTables::move_to(std::size_t i, CeedInt e) {
+  if (!tabulation_) {
+    tabulation_.emplace(program_);
+    for (const Coupling &coupling : all_) {
+      functions_.push_back({Functions(program_, *tabulation_, true, coupling.source),
+                            Functions(program_, *tabulation_, false, coupling.sink)});
+    }
+  }
+  if (e != element_) tabulation_->move_to(e);
+  element_ = e;
+  return functions_[i];
 }
 
 }  // namespace hg

@@ -61,6 +61,7 @@ constexpr Entry all_entries[] = {
     {"op.linear_assemble_qfunction", offsetof(CeedBackendOps, op.linear_assemble_qfunction)},
     {"op.linear_assemble_add_diagonal", offsetof(CeedBackendOps, op.linear_assemble_add_diagonal)},
     {"op.linear_assemble", offsetof(CeedBackendOps, op.linear_assemble)},
+    {"op.linear_assemble_elements", offsetof(CeedBackendOps, op.linear_assemble_elements)},
     {"op.get_memory", offsetof(CeedBackendOps, op.get_memory)},
     {"context.get_data_read", offsetof(CeedBackendOps, context.get_data_read)},
     {"context.restore_data_read", offsetof(CeedBackendOps, context.restore_data_read)},

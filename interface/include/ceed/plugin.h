@@ -14,7 +14,7 @@
 
 /// Version of this file: it grows with every change of a struct or of what an entry means. A plugin of another version
 /// is refused.
-#define CEED_PLUGIN_API_VERSION 1u
+#define CEED_PLUGIN_API_VERSION 2u
 
 #ifdef __cplusplus
 extern "C" {
@@ -182,6 +182,14 @@ typedef enum {
   CEED_APPLY_ADD_ACTIVE = 1,  ///< the active output is added to, passive ones are written
 } CeedApplyMode;
 
+/// Entries of an element's matrix K for one active source, whose values are its columns (c,n), and one active sink,
+/// whose values are its rows (r,m): component, then node.
+typedef enum {
+  CEED_ASSEMBLE_MATRIX = 0,        ///< all, row-major
+  CEED_ASSEMBLE_DIAGONAL = 1,      ///< (c, n): K[(c,n),(c,n)]. Source and sink have the same restriction
+  CEED_ASSEMBLE_POINT_BLOCKS = 2,  ///< (r, c, n): K[(r,n),(c,n)]. The same
+} CeedAssembleKind;
+
 /// Single operators; composites are the core's. `program` is that of CeedOperatorGetProgram().
 typedef struct {
   int (*create)(CeedOperator op, const CeedProgram *program);  ///< optional; after lowering
@@ -197,6 +205,12 @@ typedef struct {
   int (*linear_assemble_add_diagonal)(CeedOperator op, const CeedProgram *program, CeedVector diagonal);
   /// Entries in the order of CeedOperatorLinearAssembleSymbolic() from values[offset] on; optional as above.
   int (*linear_assemble)(CeedOperator op, const CeedProgram *program, CeedSize offset, CeedVector values);
+  /// Contracts the QFunction's matrices `qfunction` of some elements, as linear_assemble_qfunction() gives them, with
+  /// the bases: writes the wanted entries of one element after another. Optional, and *is_done = false says that this
+  /// coupling is not taken: the core does it.
+  int (*linear_assemble_elements)(CeedOperator op, const CeedProgram *program, CeedInt source, CeedInt sink,
+                                  CeedAssembleKind kind, CeedInt first_elem, CeedInt num_elem,
+                                  const CeedScalar *qfunction, CeedScalar *entries, bool *is_done);
   /// Bytes that the backend keeps for the operator between applications; optional: none. It reads what `create` made.
   int (*get_memory)(CeedOperator op, CeedSize *bytes);
 } CeedOperatorOps;
