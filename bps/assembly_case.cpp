@@ -46,8 +46,12 @@ class Assembly {
   /// Runs once, and waits until the device, if there is one, is done.
   int run_to_end() {
     const int code = run();
+    CeedMemType mem_type = CEED_MEM_HOST;
+    check(ceed_, CeedGetPreferredMemType(ceed_, &mem_type));
     CeedScalar norm = 0;
-    if (code == CEED_ERROR_SUCCESS && values_) check(ceed_, CeedVectorNorm(values_, CEED_NORM_MAX, &norm));
+    if (code == CEED_ERROR_SUCCESS && values_ && mem_type == CEED_MEM_DEVICE) {
+      check(ceed_, CeedVectorNorm(values_, CEED_NORM_MAX, &norm));
+    }
     return code;
   }
 

@@ -57,6 +57,16 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
   });
 }
 
+int linear_assemble_elements(CeedOperator op, const CeedProgram *program, CeedInt source, CeedInt sink,
+                             CeedAssembleKind kind, CeedInt first_elem, CeedInt num_elem, const CeedScalar *qfunction,
+                             CeedScalar *entries, bool *is_done) {
+  return host::wall(CeedOperatorReturnCeed(op), [&] {
+    host::Operator *own = operator_of(op);
+    *is_done = own != nullptr &&
+               own->linear_assemble_elements(*program, source, sink, kind, first_elem, num_elem, qfunction, entries);
+  });
+}
+
 int get_memory(CeedOperator op, CeedSize *bytes) {
   return host::wall(CeedOperatorReturnCeed(op), [&] {
     const host::Operator *own = operator_of(op);
@@ -75,6 +85,7 @@ int init(Ceed, const char *, CeedBackendOps *ops) {
   ops->op.destroy = destroy;
   ops->op.apply_add = apply_add;
   ops->op.linear_assemble_qfunction = linear_assemble_qfunction;
+  ops->op.linear_assemble_elements = linear_assemble_elements;
   ops->op.get_memory = get_memory;
   return CEED_ERROR_SUCCESS;
 }

@@ -103,4 +103,25 @@ inline void to_rows(CeedSize count, const CeedScalar *block, CeedScalar *rows) {
   }
 }
 
+inline void to_entries(const EntryPlaces &to, const CeedScalar *block, CeedScalar *entries) {
+  const CeedInt *place = to.places;
+  for (CeedInt row = 0; row < to.num_rows; row++, place += to.num_columns, entries += to.row_stride) {
+    CeedInt k = 0;
+    for (; k + W <= to.num_columns; k += W) {
+      Pack square[W];
+#pragma GCC unroll 8
+      for (int i = 0; i < W; i++) square[i] = load(block + static_cast<CeedSize>(place[k + i]) * W);
+      transpose(square);
+#pragma GCC unroll 8
+      for (int lane = 0; lane < W; lane++) {
+        if (lane < to.num_elem) store_anywhere(entries + lane * to.elem_stride + k, square[lane]);
+      }
+    }
+    for (; k < to.num_columns; k++) {
+      const CeedScalar *from = block + static_cast<CeedSize>(place[k]) * W;
+      for (CeedInt lane = 0; lane < to.num_elem; lane++) entries[lane * to.elem_stride + k] = from[lane];
+    }
+  }
+}
+
 }  // namespace hg::host::HG_HOST_ISA

@@ -93,4 +93,11 @@ inline void copy_element(CeedSize count, const CeedScalar *block, CeedScalar *ro
   for (CeedSize k = 0; k < count; k++) rows[k] = block[k];
 }
 
+inline void copy_entries(const EntryPlaces &to, const CeedScalar *block, CeedScalar *entries) {
+  const CeedInt *place = to.places;
+  for (CeedInt row = 0; row < to.num_rows; row++, place += to.num_columns, entries += to.row_stride) {
+    for (CeedInt k = 0; k < to.num_columns; k++) entries[k] = block[place[k]];
+  }
+}
+
 }  // namespace hg::host::HG_HOST_ISA

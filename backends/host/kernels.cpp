@@ -4,6 +4,7 @@
 #include "block_copy.hpp"
 #include "contract.hpp"
 #include "contract_element.hpp"
+#include "point_products.hpp"
 #include "points.hpp"
 
 #define HG_TEXT(name) #name
@@ -19,6 +20,8 @@ const Kernels table{
     .contraction = contraction,
     .point_evaluation = point_evaluation<W>,
     .point_integration = point_integration<W>,
+    .point_moments = moments,
+    .square_integration = square_integration,
     .gather_points = gather_points,
     .scatter_add_points = scatter_add_points,
     .gather = gather,
@@ -26,6 +29,7 @@ const Kernels table{
     .scatter_add = scatter_add,
     .gather_rows = gather_rows,
     .to_rows = to_rows,
+    .to_entries = to_entries,
 };
 const Kernels element_table{
     .isa = HG_NAME(HG_HOST_ISA),
@@ -34,6 +38,8 @@ const Kernels element_table{
     .contraction = element_contraction,
     .point_evaluation = point_evaluation<1>,
     .point_integration = point_integration<1>,
+    .point_moments = moments,
+    .square_integration = square_integration,
     .gather_points = gather_points,
     .scatter_add_points = scatter_add_points,
     .gather = gather_element,
@@ -41,6 +47,7 @@ const Kernels element_table{
     .scatter_add = scatter_add,
     .gather_rows = copy_row,
     .to_rows = copy_element,
+    .to_entries = copy_entries,
 };
 
 }  // namespace hg::host::HG_HOST_ISA

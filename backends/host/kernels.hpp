@@ -47,6 +47,15 @@ struct BlockNodes {
   const CeedInt *offsets[max_width];  ///< of each lane
 };
 
+/// Where the numbers of a block go that are entries of element matrices: entry (row, column) is at
+/// places[row*num_columns + column] of the block, and goes to elem*elem_stride + row*row_stride + column.
+struct EntryPlaces {
+  const CeedInt *places;
+  CeedInt num_rows, num_columns;
+  CeedInt num_elem;  ///< lanes that are wanted
+  CeedSize row_stride, elem_stride;
+};
+
 /// The points of one element, and what is evaluated there: num_comp functions, given by K^dim Chebyshev coefficients c
 /// each, (component, k_(dim-1), ..., k_0), of which entry k is at coefficients[k*W] (those of an element in a block).
 /// Arrays at points have `stride` numbers between components, and dim*num_comp components for derivatives, the
@@ -64,6 +73,30 @@ using EvaluatePoints = void (*)(const PointEvaluation &evaluation, const CeedSca
 using IntegratePoints = void (*)(const PointEvaluation &evaluation, const CeedScalar *values,
                                  const CeedScalar *derivatives, CeedScalar *sums, CeedScalar *coefficients);
 
+/// Moments of num_comp sets of values at the points of one element, num_comp next to each other for each point: K^dim
+/// of them, sums_((k_(dim-1), ..., k_0), c) = Σ_p T_k(x_p) values_(p,c). Rows of `values` and `sums` are `row` numbers
+/// apart, a multiple of max_width, and aligned as blocks are. table: K^dim moment_points numbers to work with.
+inline constexpr CeedInt moment_points = 128;
+using PointMoments = void (*)(const PointEvaluation &evaluation, const CeedScalar *values, CeedSize row,
+                              CeedScalar *table, CeedScalar *sums);
+
+/// What functions of one space give with themselves at the points of one element: P functions in each direction, K
+/// Chebyshev coefficients each, coefficients[k*P + n]. A term is a set of values at the points that multiplies in each
+/// direction the functions squared (kind 0), with their derivatives (1) or their derivatives squared (2).
+inline constexpr CeedInt num_square_kinds = 3, most_square_terms = 10;
+struct PointSquares {
+  PointEvaluation points;  ///< num_comp: sets of all terms
+  CeedInt P;
+  const CeedScalar *coefficients;
+  CeedInt num_terms;
+  CeedInt kinds[most_square_terms][3];  ///< of a term in each direction; sorted by that in the first one
+  CeedInt ends[num_square_kinds];       ///< of the terms of each kind in the first direction
+};
+/// entries_(c, (n_(dim-1), ..., n_0)) = Σ_p Σ_t values_(c,t,p) f_n, f the product over the directions of what the kinds
+/// of t say; values are `stride` numbers apart for each (c,t). sums: max_width num_comp P^dim numbers to work with.
+using IntegrateSquares = void (*)(const PointSquares &squares, const CeedScalar *values, CeedScalar *sums,
+                                  CeedScalar *entries);
+
 struct Kernels {
   const char *isa;  ///< for people: "avx512"
   CeedInt width;    ///< W; 1: one element at a time, with SIMD within it
@@ -76,6 +109,8 @@ struct Kernels {
   /// The kernels for K coefficients of a direction; NULL where there are too many.
   EvaluatePoints (*point_evaluation)(CeedInt K, bool with_derivatives);
   IntegratePoints (*point_integration)(CeedInt K, bool with_derivatives);
+  PointMoments (*point_moments)(CeedInt K);
+  IntegrateSquares (*square_integration)(CeedInt K, CeedInt P);
   /// values_(c,p) = l[offsets[p]*num_comp + c], p < num_points; l has l_size numbers
   void (*gather_points)(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *l,
                         CeedSize l_size, CeedSize stride, CeedScalar *values);
@@ -93,6 +128,7 @@ struct Kernels {
   void (*gather_rows)(CeedInt count, const CeedScalar *const *rows, CeedScalar *block);
   /// rows[lane*count + k] = block_k
   void (*to_rows)(CeedSize count, const CeedScalar *block, CeedScalar *rows);
+  void (*to_entries)(const EntryPlaces &to, const CeedScalar *block, CeedScalar *entries);
 };
 
 /// The kernels for this machine, for blocks of elements or for one at a time; the environment variable CEED_HOST_ISA

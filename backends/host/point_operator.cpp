@@ -20,9 +20,7 @@ PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program)
     : PointOperator(kernels, program, {}) {}
 
 PointOperator PointOperator::followed(const CeedProgram &program) const {
-  PointOperator followed(*kernels_, program, bases_);
-  followed.set_function(function_);
-  return followed;
+  return PointOperator(*kernels_, program, bases_);
 }
 
 PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program, std::vector<PointBasis> bases)

@@ -1,12 +1,11 @@
 // The SIMD backend: what it owes beyond the conformance suite, which knows no backend.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "../conformance/oracle/instance.hpp"
+#include "isa.hpp"
 #include "support/errors.hpp"
 #include "support/handles.hpp"
 #include "support/random.hpp"
@@ -15,38 +14,6 @@
 namespace {
 
 using namespace hg::test;
-
-constexpr const char *blocked = "/cpu/self/avx/blocked";
-
-/// Chooses the instruction set of operators that are made while it lives.
-class Isa {
- public:
-  explicit Isa(const std::string &name) {
-    if (const char *set = std::getenv(variable)) before_ = set;
-    ::setenv(variable, name.c_str(), 1);
-  }
-  ~Isa() {
-    if (before_) {
-      ::setenv(variable, before_->c_str(), 1);
-    } else {
-      ::unsetenv(variable);
-    }
-  }
-  Isa(const Isa &) = delete;
-  Isa &operator=(const Isa &) = delete;
-
- private:
-  static constexpr const char *variable = "CEED_HOST_ISA";
-  std::optional<std::string> before_;
-};
-
-/// What a request opens.
-std::string resource_of(const char *request) {
-  const CeedHandle ceed{open(request)};
-  const char *resource = nullptr;
-  ok(CeedGetResource(ceed, &resource));
-  return resource;
-}
 
 /// Instruction sets with fused multiplications that this machine has, which round alike: 4 and 8 elements in a block.
 std::vector<std::string> fused() {
@@ -206,8 +173,7 @@ TEST(Avx, IsRightAfterAFunctionThatFailed) {
   }
 }
 
-/// Memory for assembly does not grow with the mesh: it goes piece by piece, and pieces begin at any element. Counts of
-/// points are such that W elements from an odd one on have more points than any W from a multiple of W on.
+/// Memory for assembly does not grow with the mesh: it goes piece by piece, some of which have no points.
 TEST(Avx, AssemblesPiecesOfUnevenMeshesAtPoints) {
   const CeedHandle ceed{open(blocked)}, other{open(reference_resource)};
   constexpr CeedInt num_elem = 6000, num_comp = 3, dim = 3, P_1d = 2, elem_size = 8;
