@@ -2,7 +2,7 @@
 # Shared by test.sh and demo.sh: the Debian packages that each needs, and how they are installed.
 
 build_packages="build-essential cmake ninja-build pkg-config petsc-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev
-  libmetis-dev libcli11-dev nlohmann-json3-dev libfmt-dev libopenblas0-serial"
+  libmetis-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libopenblas0-serial"
 test_packages="libgtest-dev libbenchmark-dev valgrind git python3"
 plot_packages="python3 python3-matplotlib python3-h5py"
 coverage_packages="gcovr"

@@ -99,13 +99,20 @@ std::vector<CeedScalar> derivative_at_points(const CeedScalar *B, const CeedScal
 Factor::Direction Factor::prepare(const Kernels &kernels, const std::vector<CeedScalar> &B, CeedInt M, CeedInt N) {
   const Symmetry symmetry = symmetry_of(B, M, N);
   if (symmetry != Symmetry::none && kernels.contraction(M, N, symmetry, false) != nullptr) {
-    return {even_odd(B, M, N), {kernels.contraction(M, N, symmetry, false), kernels.contraction(M, N, symmetry, true)}};
+    return {M,
+            N,
+            symmetry,
+            even_odd(B, M, N),
+            {kernels.contraction(M, N, symmetry, false), kernels.contraction(M, N, symmetry, true)}};
   }
-  return {with_columns(B, M, N, kernels.columns),
+  return {M,
+          N,
+          Symmetry::none,
+          with_columns(B, M, N, kernels.columns),
           {kernels.contraction(M, N, Symmetry::none, false), kernels.contraction(M, N, Symmetry::none, true)}};
 }
 
-Factor::Factor(const Kernels &kernels, const CeedScalar *B, CeedInt M, CeedInt N) : M_(M), N_(N) {
+Factor::Factor(const Kernels &kernels, const CeedScalar *B, CeedInt M, CeedInt N) {
   const std::vector<CeedScalar> matrix(B, B + static_cast<std::size_t>(M) * N);
   std::vector<CeedScalar> transpose(matrix.size());
   for (CeedInt m = 0; m < M; m++) {

@@ -18,25 +18,29 @@ class Factor {
   Factor(const Kernels &kernels, const CeedScalar *B, CeedInt M, CeedInt N);
   /// out (+)= B in along a direction, see Contraction
   void apply(CeedInt pre, CeedInt post, const CeedScalar *in, CeedScalar *out, Ahead &ahead, bool add = false) const {
-    forward_.kernel[add](forward_.coefficients.data(), M_, N_, pre, post, in, out, ahead);
+    forward_.kernel[add](forward_.coefficients.data(), forward_.M, forward_.N, pre, post, in, out, ahead);
   }
   /// out (+)= B^T in
   void apply_transpose(CeedInt pre, CeedInt post, const CeedScalar *in, CeedScalar *out, Ahead &ahead,
                        bool add = false) const {
-    back_.kernel[add](back_.coefficients.data(), N_, M_, pre, post, in, out, ahead);
+    back_.kernel[add](back_.coefficients.data(), back_.M, back_.N, pre, post, in, out, ahead);
   }
   std::size_t num_bytes() const {
     return (forward_.coefficients.size() + back_.coefficients.size()) * sizeof(CeedScalar);
   }
 
- private:
+  /// B, or its transpose: its coefficients (see Contraction) and its kernels.
   struct Direction {
+    CeedInt M = 0, N = 0;
+    Symmetry symmetry = Symmetry::none;  ///< that the coefficients make use of
     std::vector<CeedScalar> coefficients;
-    Contraction kernel[2];  ///< to set, to add
+    Contraction kernel[2] = {};  ///< to set, to add
   };
+  const Direction &direction(bool is_transpose) const { return is_transpose ? back_ : forward_; }
+
+ private:
   static Direction prepare(const Kernels &kernels, const std::vector<CeedScalar> &B, CeedInt M, CeedInt N);
 
-  CeedInt M_ = 0, N_ = 0;
   Direction forward_, back_;
 };
 
@@ -71,6 +75,25 @@ class BlockBasis {
   /// Quadrature weights, one for each point.
   const std::vector<CeedScalar> &weights() const { return weights_; }
 
+  /// How values come about, for those who print it.
+  enum class Route {
+    identity,    ///< tensor product whose points are the nodes
+    collocated,  ///< tensor product, derivatives at the points
+    chains,      ///< tensor product, a chain for each derivative
+    full,        ///< a matrix for each value
+  };
+  Route route() const { return route_; }
+  CeedInt num_directions() const { return num_directions_; }  ///< 1 where the matrices are full
+  CeedInt num_comp() const { return num_comp_; }
+  CeedInt P() const { return P_; }  ///< nodes in a direction
+  CeedInt Q() const { return Q_; }  ///< points in a direction
+  /// Factors of a tensor product: values, and derivatives (between points where they are collocated).
+  const Factor &interp_1d() const { return interp_1d_; }
+  const Factor &grad_1d() const { return grad_1d_; }
+  /// Full matrices, one for each value.
+  const std::vector<Factor> &interp() const { return interp_; }
+  const std::vector<Factor> &derivative() const { return derivative_; }
+
  private:
   static CeedInt power(CeedInt base, CeedInt exponent) { return CeedIntPow(base, exponent); }
   void create_tensor(const Kernels &kernels, CeedBasis basis);
@@ -80,12 +103,6 @@ class BlockBasis {
   void to_nodes(const CeedScalar *values, CeedScalar *u, CeedInt derived_direction, bool add, CeedScalar *work,
                 Ahead &ahead) const;
 
-  enum class Route {
-    identity,    ///< tensor product whose points are the nodes
-    collocated,  ///< tensor product, derivatives at the points
-    chains,      ///< tensor product, a chain for each derivative
-    full,        ///< a matrix for each value
-  };
   Route route_ = Route::full;
   CeedInt width_ = 0;
   CeedInt num_directions_ = 1, num_comp_ = 0, P_ = 0, Q_ = 0;  ///< P, Q: of a direction

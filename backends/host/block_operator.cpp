@@ -230,16 +230,21 @@ void BlockOperator::write(CeedInt first, CeedInt num_elem, const std::vector<Cee
   });
 }
 
-void BlockOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
-  ProgramArrays arrays(program, in, out, mode);
-  ContextData context(program.qf);
-  for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
+void BlockOperator::apply_from(CeedInt first_elem, const CeedProgram &program, const ProgramArrays &arrays,
+                               void *context) {
+  for_blocks(first_elem, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
     ask_for_block(static_cast<CeedSize>(first) + W_, arrays.sources());
     read(first, num_elem, arrays.sources());
     ask_for_nodes(first, num_elem, program.num_elem, arrays);
-    call(program, first, num_elem, context.data());
+    call(program, first, num_elem, context);
     write(first, num_elem, arrays.sinks());
   });
+}
+
+void BlockOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+  ProgramArrays arrays(program, in, out, mode);
+  ContextData context(program.qf);
+  apply_from(0, program, arrays, context.data());
   context.release();
   arrays.release();
 }

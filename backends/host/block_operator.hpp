@@ -27,8 +27,11 @@ class BlockOperator {
   static bool takes(const Kernels &kernels, const CeedProgram &program);
   BlockOperator(const Kernels &kernels, const CeedProgram &program);
 
+  void set_function(CeedQFunctionUser function) { function_ = function; }
   /// As CeedOperatorOps::apply_add().
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  /// The part of it that belongs to the elements from `first` on, a multiple of W.
+  void apply_from(CeedInt first, const CeedProgram &program, const ProgramArrays &arrays, void *context);
   /// As CeedOperatorOps::linear_assemble_qfunction().
   void linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem, CeedVector values);
   /// Bytes of its arrays and bases.

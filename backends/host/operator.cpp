@@ -12,6 +12,14 @@ std::unique_ptr<Operator> Operator::make(const Kernels &kernels, const CeedProgr
   return nullptr;
 }
 
+void Operator::set_function(CeedQFunctionUser function) {
+  std::visit([&](auto &own) { own.set_function(function); }, either_);
+}
+
+void Operator::apply_from(CeedInt first, const CeedProgram &program, const ProgramArrays &arrays, void *context) {
+  std::get<BlockOperator>(either_).apply_from(first, program, arrays, context);
+}
+
 void Operator::follow(const CeedProgram &program) {
   auto *at_points = std::get_if<PointOperator>(&either_);
   if (at_points != nullptr && at_points->points_epoch() != program.points_epoch) {

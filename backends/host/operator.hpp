@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 #include "block_operator.hpp"
@@ -15,16 +16,21 @@
 
 namespace hg::host {
 
-/// At quadrature points or at points, as its program says. One thread at a time.
+/// At quadrature points or at points, as its program says. One thread at a time. It is what the operators of a backend
+/// have for data (CeedOperatorSetData()), so that the functions of avx serve those of its children as well.
 class Operator {
  public:
   /// NULL where the kernels do not take the program.
   static std::unique_ptr<Operator> make(const Kernels &kernels, const CeedProgram &program);
 
+  /// Calls another function in place of the QFunction's.
+  void set_function(CeedQFunctionUser function);
   /// To be called before anything else below: follows the points where they have been set again.
   void follow(const CeedProgram &program);
   /// As CeedOperatorOps::apply_add().
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  /// The part of it that belongs to the elements from `first` on, a multiple of the width; at quadrature points alone.
+  void apply_from(CeedInt first, const CeedProgram &program, const ProgramArrays &arrays, void *context);
   /// As CeedOperatorOps::linear_assemble_qfunction().
   void linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem, CeedVector values);
   /// As CeedOperatorOps::linear_assemble_elements(); false where the coupling is not taken.

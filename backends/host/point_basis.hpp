@@ -21,7 +21,9 @@ class PointBasis {
 
   CeedInt dim() const { return dim_; }
   CeedInt num_comp() const { return num_comp_; }
+  CeedInt P() const { return P_; }
   CeedInt K() const { return K_; }
+  const Factor &matrix() const { return matrix_; }  ///< of one direction
   std::size_t num_coefficients() const { return static_cast<std::size_t>(CeedIntPow(K_, dim_)) * num_comp_; }
   /// Numbers of the work array that the functions below need.
   std::size_t work_size() const;

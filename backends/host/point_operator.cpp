@@ -20,7 +20,9 @@ PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program)
     : PointOperator(kernels, program, {}) {}
 
 PointOperator PointOperator::followed(const CeedProgram &program) const {
-  return PointOperator(*kernels_, program, bases_);
+  PointOperator followed(*kernels_, program, bases_);
+  followed.set_function(function_);
+  return followed;
 }
 
 PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program, std::vector<PointBasis> bases)

@@ -29,10 +29,11 @@ class PointOperator {
   static bool takes(const Kernels &kernels, const CeedProgram &program);
   PointOperator(const Kernels &kernels, const CeedProgram &program);
 
-  /// The same operator for points that were set again: bases are kept.
+  /// The same operator for points that were set again: bases and the function are kept.
   PointOperator followed(const CeedProgram &program) const;
   /// CeedProgram::points_epoch of the points that it was made for
   CeedSize points_epoch() const { return points_epoch_; }
+  void set_function(CeedQFunctionUser function) { function_ = function; }
   /// As CeedOperatorOps::apply_add().
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// As CeedOperatorOps::linear_assemble_qfunction().

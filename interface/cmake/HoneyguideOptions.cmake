@@ -12,6 +12,8 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 # The build tree has the shape of an installation: programs in bin/, the library and its plugins in lib/.
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/include/ceed")
+file(CREATE_LINK "${PROJECT_SOURCE_DIR}/qfunctions" "${PROJECT_BINARY_DIR}/include/ceed/jit-source" SYMBOLIC)
 
 # Installed programs find the library relative to themselves; LD_LIBRARY_PATH goes before it (RUNPATH, not RPATH), so
 # that a program can be run with another library of this interface.

@@ -13,6 +13,7 @@ const char *const required[] = {
     "/cpu/self/memcheck/serial",
     "/cpu/self/avx/blocked",
     "/cpu/self/avx/serial",
+    "/cpu/self/gen",
 };
 
 TEST(ExpectedBackends, AreListedAndOpen) {

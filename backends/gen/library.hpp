@@ -1,0 +1,29 @@
+/// @file
+/// From a printed text to functions.
+#pragma once
+
+#include <ceed/plugin.h>
+
+#include "../host/kernels.hpp"
+#include "print.hpp"
+#include "source.hpp"
+#include "text/job.hpp"
+
+namespace hg::gen {
+
+/// What was compiled; valid as long as the process.
+struct Library {
+  CeedQFunctionUser function;  ///< the QFunction
+  Apply apply;                 ///< the operator; NULL where none was printed
+};
+
+/// Compiles a QFunction with the loop that was printed for it, or takes both from the cache. Throws NotCompiled. With
+/// CEED_GEN_REPORT it is told on standard error which of the QFunction's loops became SIMD, and why others did not.
+Library compile(const host::Kernels &kernels, const Source &source, const Printed &printed);
+
+/// Whether a variable of the environment is there, and neither empty nor 0.
+bool is_set(const char *variable);
+/// Tells a text on standard error, once in a process.
+void tell_once(const std::string &text);
+
+}  // namespace hg::gen
