@@ -53,6 +53,12 @@ class Printer {
   /// out (+)= B in, or with the transpose of B, for `pre` rows of `columns` numbers.
   void contract(const host::Factor &factor, bool is_transpose, CeedInt pre, CeedInt columns, const Rows &in,
                 const Rows &out, bool add = false);
+  /// What is printed from now on is repeated so often.
+  void repeat(CeedInt times) { in_loop_ = times; }
+  /// Steps of all contractions, see Ahead.
+  CeedSize num_steps() const { return num_steps_; }
+  /// Fills in a text for a mark that was printed before.
+  void fill_in(const std::string &mark, const std::string &text) { text_.replace(text_.find(mark), mark.size(), text); }
   Printed printed() && { return {std::move(text_), std::move(numbers_), work_ + host::max_width}; }
 
  private:
@@ -60,7 +66,8 @@ class Printer {
   std::size_t indent_ = 0;
   std::vector<const CeedScalar *> numbers_;
   std::size_t work_ = 0;
-  CeedInt W_;
+  CeedInt W_, in_loop_ = 1;
+  CeedSize num_steps_ = 0;
 };
 
 /// Prints an operator at quadrature points, for full blocks of elements. `bases`: of the program's spaces.

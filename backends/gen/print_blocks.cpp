@@ -31,7 +31,12 @@ class BlockPrinter {
  public:
   BlockPrinter(const host::Kernels &kernels, const CeedProgram &program, const std::string &function,
                const std::vector<const BlockBasis *> &bases)
-      : program_(program), function_(function), bases_(bases), to_(kernels.width), Q_(program.num_qpts) {
+      : program_(program),
+        function_(function),
+        bases_(bases),
+        to_(kernels.width),
+        W_(kernels.width),
+        Q_(program.num_qpts) {
     slice();
   }
 
@@ -47,29 +52,69 @@ class BlockPrinter {
     declare_inputs();
     declare_outputs();
     to_.line("for (CeedInt first = job->first; first < job->end; first += W) {{");
+    to_.line("{}", ahead_mark);
     for (CeedInt s = 0; s < program_.num_sources; s++) read_nodes(s);
     for (const Evaluation &e : evaluations_) evaluate(e);
     ask();
     to_.line("for (CeedInt k = 0; k < {}; k++) {{", num_slices_);
+    to_.repeat(num_slices_);
     for (const Evaluation &e : evaluations_) evaluate_slice(e);
     for (CeedInt i = 0; i < program_.num_inputs; i++) read_slice(i);
     call();
     for (const Evaluation &e : integrations_) integrate_slice(e);
     for (CeedInt o = 0; o < program_.num_outputs; o++) write_slice(o);
     to_.line("}}");
+    to_.repeat(1);
     for (const Evaluation &e : integrations_) integrate(e);
     for (CeedInt t = 0; t < program_.num_sinks; t++) write_nodes(t);
     to_.line("}}");
     to_.line("return 0;");
     to_.line("}}");
+    plan_ahead();
     return std::move(to_).printed();
   }
 
  private:
+  static constexpr const char *ahead_mark = "Ahead ahead;";
+
+  /// What is stored at the points streams by once: the largest such source of the next block is asked for while this
+  /// one is worked on, a few lines at each step.
+  void plan_ahead() {
+    CeedSize largest = 0;
+    CeedInt source = -1;
+    for (CeedInt s = 0; s < program_.num_sources; s++) {
+      const CeedElementMap &map = map_of(program_.sources[s]);
+      const CeedSize size = static_cast<CeedSize>(map.elem_size) * map.num_comp;
+      if (has_nodes_in_[s] || map.offsets != nullptr || map.strides[2] != size || size <= largest) continue;
+      largest = size;
+      source = s;
+    }
+    if (source < 0 || to_.num_steps() == 0) return;
+    const CeedSize lines =
+        (largest * W_ * static_cast<CeedSize>(sizeof(CeedScalar)) + host::Ahead::line - 1) / host::Ahead::line;
+    to_.fill_in(ahead_mark, fmt::format("Ahead ahead = ahead_of(job->sources[{0}], job->inputs[{0}], first, {1});",
+                                        source, (lines + to_.num_steps() - 1) / to_.num_steps()));
+  }
+
   static CeedInt power(CeedInt base, CeedInt exponent) { return CeedIntPow(base, exponent); }
   const BlockBasis &basis(const Evaluation &e) const { return *bases_[e.space]; }
   static bool is_at_points(const BlockBasis &basis) {
     return basis.route() == Route::identity || basis.route() == Route::collocated;
+  }
+
+  /// Slices of n points pay where rows of them fill packs, or little is read beside what is evaluated: else turning
+  /// what is left over of the rows costs more than the second cache.
+  bool slices_pay(CeedInt n) const {
+    CeedInt stored = 0, evaluated = 0;
+    for (CeedInt i = 0; i < program_.num_inputs; i++) {
+      const CeedProgramField &field = program_.inputs[i];
+      if (field.eval_mode == CEED_EVAL_NONE) {
+        stored += field.size;
+      } else if (field.eval_mode != CEED_EVAL_WEIGHT) {
+        evaluated += field.size;
+      }
+    }
+    return n % W_ == 0 || (n > W_ && stored <= evaluated);
   }
 
   /// Slices are lines or planes of points, where all bases have the same.
@@ -82,7 +127,7 @@ class BlockPrinter {
       Q = basis->Q();
       dim = basis->num_directions();
     }
-    num_slices_ = can && dim > 0 ? Q : 1;
+    num_slices_ = can && dim > 0 && slices_pay(Q_ / Q) ? Q : 1;
     n_ = Q_ / num_slices_;
   }
   bool is_sliced() const { return num_slices_ > 1; }
@@ -459,7 +504,7 @@ class BlockPrinter {
   const std::string &function_;
   const std::vector<const BlockBasis *> &bases_;
   Printer to_;
-  CeedInt Q_, n_ = 0, num_slices_ = 1;  ///< points of an element, and of a slice
+  CeedInt W_, Q_, n_ = 0, num_slices_ = 1;  ///< points of an element, and of a slice
   std::vector<Evaluation> evaluations_, integrations_;
   std::vector<SameAs> first_with_;
   std::vector<bool> has_nodes_in_, has_nodes_out_;

@@ -45,6 +45,7 @@ class PointPrinter {
   Printed print(bool is_exact, CeedInt vec_length) {
     to_.line("extern \"C\" __attribute__((visibility(\"default\"))) int hg_apply(Job *job) {{");
     declare();
+    to_.line("Ahead ahead;");
     to_.line("for (CeedInt first = job->first; first < job->end; first += W) {{");
     to_.line("const CeedInt num_elem = job->end - first < W ? job->end - first : W;");
     to_.line("if (first_point(*job->points, first + num_elem) == first_point(*job->points, first)) continue;");

@@ -16,19 +16,18 @@ struct Rows {
 /// out_(a,m,c) (+)= Σ_n B_(m,n) in_(a,n,c) for a < pre, c < columns. s: 1 and -1 as in Contraction; 0: B as it is.
 template <int M, int N, int s, bool add = false>
 [[gnu::always_inline]] inline void contract(const CeedScalar *B, CeedInt pre, CeedInt columns,
-                                            Rows<const CeedScalar> in, Rows<CeedScalar> out) {
-  Ahead nothing;
+                                            Rows<const CeedScalar> in, Rows<CeedScalar> out, Ahead &ahead) {
   const CeedSize in_step = static_cast<CeedSize>(in.row) * W, out_step = static_cast<CeedSize>(out.row) * W;
   for (CeedInt a = 0; a < pre; a++) {
     const CeedScalar *x = in.array + static_cast<CeedSize>(a) * in.pre * W;
     CeedScalar *y = out.array + static_cast<CeedSize>(a) * out.pre * W;
     if constexpr (s != 0) {
-      contract_columns<M, N, s, add>(B, columns, x, in_step, y, out_step, nothing);
+      contract_columns<M, N, s, add>(B, columns, x, in_step, y, out_step, ahead);
     } else {
       const auto rows = [&](auto count, CeedInt m) __attribute__((always_inline)) {
         for (CeedInt c = 0; c < columns; c++) {
           contract_rows<decltype(count)::value, add>(B + m * N, N, x + c * W, in_step, y + m * out_step + c * W,
-                                                     out_step, nothing);
+                                                     out_step, ahead);
         }
       };
       constexpr int rest = M % 4;
@@ -88,11 +87,16 @@ template <int size, int num_comp, bool to_write>
   }
 }
 
-/// The same where there are no offsets: rows of numbers, turned. What the next block will read is asked for.
+/// What the next block will read where there are no offsets, `lines` cache lines at each step of this block's
+/// contractions.
+[[gnu::always_inline]] inline Ahead ahead_of(const Side &side, const CeedScalar *l, CeedInt first, CeedInt lines) {
+  return {reinterpret_cast<uintptr_t>(l) + (first + W) * side.elem_stride * sizeof(CeedScalar), lines};
+}
+
+/// The same where there are no offsets: rows of numbers, turned.
 template <int size, int num_comp, int count = size>
 [[gnu::always_inline]] inline void read_stored(const Side &side, const CeedScalar *l, CeedInt first, CeedInt num_elem,
                                                CeedInt begin, CeedScalar *block) {
-  const CeedSize ahead = W * side.elem_stride;
   for (CeedInt c = 0; c < num_comp; c++, block += count * W) {
     const CeedScalar *rows[W];
     for (CeedInt lane = 0; lane < W; lane++) {
@@ -104,7 +108,6 @@ template <int size, int num_comp, int count = size>
       Pack square[W];
 #pragma GCC unroll 8
       for (int lane = 0; lane < W; lane++) {
-        __builtin_prefetch(rows[lane] + k + ahead, 0, 2);
         square[lane] = load_anywhere(rows[lane] + k);
       }
       transpose(square);
