@@ -48,7 +48,7 @@ std::uintmax_t largest_size() {
   if (*end != '\0' || !(size >= 0)) {
     throw NotCompiled("CEED_CACHE_SIZE is '" + std::string(value) + "'; expected a number of MiB");
   }
-  return static_cast<std::uintmax_t>(size * mebibyte);
+  return static_cast<std::uintmax_t>(std::min(size, 1e9) * mebibyte);
 }
 
 /// A name that no other process or thread has.
@@ -112,7 +112,7 @@ std::string digest(const std::string &text) {
   return hex;
 }
 
-Cache::Cache() : folder_(chosen_folder()) {
+Cache::Cache() : folder_(chosen_folder()), largest_(largest_size()) {
   std::error_code failure;
   fs::create_directories(folder_.parent_path(), failure);
   if (::mkdir(folder_.c_str(), 0700) != 0 && errno != EEXIST) {
@@ -152,19 +152,24 @@ void *Cache::library(const Compiler &compiler, const Request &request, std::stri
   static std::map<std::string, void *> opened;  // libraries stay open: operators come and go
   const std::scoped_lock one_thread(mutex);
   if (const auto found = opened.find(file); found != opened.end()) return found->second;
-  if (is_there(file)) {
-    ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0);  // was used now
-  } else {
-    compile(compiler, request, name, said);
-  }
-  void *library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) {
+  // What is there may be cut short, and what was there a moment ago may be gone, as room for another process's entry.
+  for (int attempts_left = 2;; attempts_left--) {
+    const bool is_found = is_there(file);
+    if (is_found) {
+      ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0);  // was used now
+    } else {
+      compile(compiler, request, name, said);
+    }
+    if (void *library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); library != nullptr) {
+      opened.emplace(file, library);
+      return library;
+    }
     const char *error = ::dlerror();
-    ::unlink(file.c_str());  // the next one makes it anew
-    throw NotCompiled("'" + file.string() + "' cannot be loaded: " + (error != nullptr ? error : "no reason given"));
+    const bool is_gone = ::unlink(file.c_str()) != 0;
+    if (attempts_left == 0 || (!is_found && !is_gone)) {
+      throw NotCompiled("'" + file.string() + "' cannot be loaded: " + (error != nullptr ? error : "no reason given"));
+    }
   }
-  opened.emplace(file, library);
-  return library;
 }
 
 void Cache::compile(const Compiler &compiler, const Request &request, const std::string &name,
@@ -173,14 +178,19 @@ void Cache::compile(const Compiler &compiler, const Request &request, const std:
   const fs::path source = folder_ / (name + ".cpp"), file = folder_ / (name + ".so");
   if (is_there(file)) return;
   keep(source.filename(), request.text);
-  const Passing library(own(file));
-  const Compiler::Outcome outcome = compiler.compile(request.options, request.is_report_wanted, source, library.path());
-  *said = outcome.messages;
-  if (!is_there(library.path()) || !outcome.is_done) {
+  try {
+    const Passing library(own(file));
+    const Compiler::Outcome outcome =
+        compiler.compile(request.options, request.is_report_wanted, source, library.path());
+    *said = outcome.messages;
+    if (!is_there(library.path()) || !outcome.is_done) {
+      throw NotCompiled("the compiler refuses it:\n" + outcome.messages);
+    }
+    library.become(file);
+  } catch (const NotCompiled &) {
     ::unlink(source.c_str());
-    throw NotCompiled("the compiler refuses it:\n" + outcome.messages);
+    throw;
   }
-  library.become(file);
   trim();
 }
 
@@ -206,8 +216,7 @@ void Cache::trim() const {
     total += entries.back().size;
   }
   std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) { return a.used < b.used; });
-  const std::uintmax_t largest = largest_size();
-  for (std::size_t i = 0; i + 1 < entries.size() && total > largest; i++) {  // the newest is about to be loaded
+  for (std::size_t i = 0; i + 1 < entries.size() && total > largest_; i++) {  // the newest is about to be loaded
     fs::path source = entries[i].library;
     source.replace_extension(".cpp");
     fs::remove(entries[i].library, gone);

@@ -2,6 +2,7 @@
 /// Compiled libraries on disk and in this process.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -40,6 +41,7 @@ class Cache {
   void trim() const;
 
   std::filesystem::path folder_;
+  std::uintmax_t largest_;  ///< bytes
 };
 
 /// 32 hexadecimal digits (XXH3, 128 bits).

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
@@ -32,7 +33,8 @@ void report(const Source &source, const Cache &cache, const std::string &said) {
   }
   std::string text = "gen: loops of the QFunction '" + source.function + "':";
   for (const auto &line : of_user) text += "\n  " + line;
-  tell_once(of_user.empty() ? text + " the compiler says nothing of them" : text);
+  if (of_user.empty()) text += " the compiler says nothing of them";
+  tell_once(text, text);
 }
 
 /// What the compiler's "native" means here.
@@ -69,7 +71,9 @@ std::vector<std::string> options_for(const host::Kernels &kernels, const Source 
   if (isa == "avx2") options.emplace_back("-mno-avx512f");
   if (isa == "avx512") options.emplace_back("-mprefer-vector-width=512");
   for (const auto &root : source.roots) options.push_back("-I" + root.string());
-  for (const auto &define : source.defines) options.push_back(define[0] == '-' ? define : "-D" + define);
+  for (const auto &define : source.defines) {
+    if (define[0] == '-') options.push_back(define);
+  }
   const char *own = std::getenv("CEED_GEN_FLAGS");
   std::istringstream words(own != nullptr ? own : "");
   for (std::string word; words >> word;) options.push_back(word);
@@ -85,11 +89,24 @@ std::filesystem::path headers_in(const Cache &cache) {
   return cache.folder() / folder;
 }
 
+/// Lines that define what is defined for the QFunction, and lines that end that: our own text does not see it.
+void print_defines(const Source &source, std::string &begin, std::string &end) {
+  for (const auto &define : source.defines) {
+    if (define[0] == '-') continue;
+    const auto equals = define.find('=');
+    const bool has_value = equals != std::string::npos;
+    begin += "#define " + define.substr(0, equals) + ' ' + (has_value ? define.substr(equals + 1) : "1") + '\n';
+    end += "#undef " + define.substr(0, std::min(equals, define.find('('))) + '\n';
+  }
+}
+
 std::string text_of(const host::Kernels &kernels, const Source &source, const Printed &printed) {
+  std::string defines, end_of_defines;
+  print_defines(source, defines, end_of_defines);
   std::string text = "// The QFunction " + source.function + ", compiled for the operator that it belongs to.\n";
   text += "#define HG_HOST_ISA compiled\n#define HG_HOST_WIDTH " + std::to_string(kernels.width) +
           "\n#define HG_HOST_FUSES\n#include <honeyguide/begin.hpp>\n#include <honeyguide/at_points.hpp>\n\n";
-  text += "#include \"" + source.file.string() + "\"\n\n";
+  text += defines + "#include \"" + source.file.string() + "\"\n" + end_of_defines + '\n';
   text += "// " + source.digest + " is the digest of all that it includes.\n";
   text +=
       "extern \"C\" __attribute__((visibility(\"default\"))) int hg_qfunction(void *context, CeedInt Q,\n"
@@ -106,11 +123,11 @@ bool is_set(const char *variable) {
   return value != nullptr && *value != '\0' && std::string_view(value) != "0";
 }
 
-void tell_once(const std::string &text) {
+void tell_once(const std::string &key, const std::string &text) {
   static std::mutex mutex;
   static std::set<std::string> told;
   const std::scoped_lock lock(mutex);
-  if (told.insert(text).second) std::fprintf(stderr, "%s\n", text.c_str());
+  if (told.insert(key).second) std::fprintf(stderr, "%s\n", text.c_str());
 }
 
 Library compile(const host::Kernels &kernels, const Source &source, const Printed &printed) {

@@ -23,7 +23,7 @@ Library compile(const host::Kernels &kernels, const Source &source, const Printe
 
 /// Whether a variable of the environment is there, and neither empty nor 0.
 bool is_set(const char *variable);
-/// Tells a text on standard error, once in a process.
-void tell_once(const std::string &text);
+/// Tells a text on standard error, once in a process for each key.
+void tell_once(const std::string &key, const std::string &text);
 
 }  // namespace hg::gen

@@ -71,9 +71,13 @@ void Operator::compile(const CeedProgram &program, bool with_loop) {
     numbers_ = std::move(printed.numbers);
     apply_ = library.apply;
   } catch (const NotCompiled &reason) {
-    if (is_set("CEED_JIT_ERROR_ON_FAILURE") && dynamic_cast<const NoSource *>(&reason) == nullptr) throw;
-    tell_once("gen: the QFunction '" + std::string(name) +
-              "' is not compiled, and runs as on /cpu/self/avx/blocked: " + reason.what());
+    if (is_set("CEED_JIT_ERROR_ON_FAILURE") && dynamic_cast<const NoSource *>(&reason) == nullptr) {
+      has_function_ = has_loop_ = false;  // the next call is an error again
+      throw;
+    }
+    const std::string what =
+        "gen: the QFunction '" + std::string(name) + "' is not compiled, and runs as on /cpu/self/avx/blocked: ";
+    tell_once(what, what + reason.what());
   }
 }
 
@@ -88,6 +92,8 @@ std::size_t Operator::num_bytes() const {
 Printed Operator::print(const CeedProgram &program, const std::string &function) {
   std::vector<const host::PointBasis *> at_points;
   std::vector<const host::BlockBasis *> in_blocks;
+  block_bases_.clear();
+  point_bases_.clear();
   block_bases_.reserve(program.num_spaces);  // they are pointed to
   point_bases_.reserve(program.num_spaces);
   for (CeedInt i = 0; i < program.num_spaces; i++) {

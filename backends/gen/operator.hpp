@@ -23,8 +23,8 @@ class Operator : public host::Operator {
   static std::unique_ptr<Operator> make(const host::Kernels &kernels, const CeedProgram &program);
 
   /// As CeedOperatorOps::apply_add(). The first time the loop is compiled, or taken from the cache. Where nothing can
-  /// be compiled, the reason is told on standard error, once, and the operator stays the SIMD backend's; with
-  /// CEED_JIT_ERROR_ON_FAILURE that is an error.
+  /// be compiled, the reason is told on standard error, once for each QFunction, and the operator stays the SIMD
+  /// backend's; with CEED_JIT_ERROR_ON_FAILURE each call is an error instead.
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// To be called before an assembly: compiles the QFunction alone, where the loop has not been compiled.
   void prepare_assembly(const CeedProgram &program);
