@@ -108,10 +108,12 @@ std::string text_of(const host::Kernels &kernels, const Source &source, const Pr
           "\n#define HG_HOST_FUSES\n#include <honeyguide/begin.hpp>\n#include <honeyguide/at_points.hpp>\n\n";
   text += defines + "#include \"" + source.file.string() + "\"\n" + end_of_defines + '\n';
   text += "// " + source.digest + " is the digest of all that it includes.\n";
-  text +=
-      "extern \"C\" __attribute__((visibility(\"default\"))) int hg_qfunction(void *context, CeedInt Q,\n"
-      "    const CeedScalar *const *in, CeedScalar *const *out) {\n  return ::" +
-      source.function + "(context, Q, in, out);\n}\n";
+  if (!printed.does_all) {
+    text +=
+        "extern \"C\" __attribute__((visibility(\"default\"))) int hg_qfunction(void *context, CeedInt Q,\n"
+        "    const CeedScalar *const *in, CeedScalar *const *out) {\n  return ::" +
+        source.function + "(context, Q, in, out);\n}\n";
+  }
   if (!printed.text.empty()) text += "\nnamespace hg::host::compiled {\n\n" + printed.text + "\n}  // namespace\n";
   return text;
 }
@@ -145,7 +147,7 @@ Library compile(const host::Kernels &kernels, const Source &source, const Printe
     if (address == nullptr) throw NotCompiled(std::string("the library has no symbol ") + name);
     return address;
   };
-  return {.function = reinterpret_cast<CeedQFunctionUser>(symbol("hg_qfunction")),
+  return {.function = printed.does_all ? nullptr : reinterpret_cast<CeedQFunctionUser>(symbol("hg_qfunction")),
           .apply = printed.text.empty() ? nullptr : reinterpret_cast<Apply>(symbol("hg_apply"))};
 }
 

@@ -13,7 +13,7 @@ namespace hg::gen {
 
 /// What was compiled; valid as long as the process.
 struct Library {
-  CeedQFunctionUser function;  ///< the QFunction
+  CeedQFunctionUser function;  ///< the QFunction; NULL where the operator does all by itself
   Apply apply;                 ///< the operator; NULL where none was printed
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "../host/access.hpp"
 #include "compiler.hpp"
@@ -54,7 +55,7 @@ void Operator::prepare_assembly(const CeedProgram &program) {
 }
 
 void Operator::compile(const CeedProgram &program, bool with_loop) {
-  has_function_ = true;
+  const bool had_function = std::exchange(has_function_, true);
   has_loop_ = has_loop_ || with_loop;
   const char *name = nullptr;
   chk(CeedQFunctionGetName(program.qf, &name));
@@ -62,7 +63,8 @@ void Operator::compile(const CeedProgram &program, bool with_loop) {
     const Source source = Source::of(program.qf);
     Printed printed = with_loop ? print(program, source.function) : Printed();
     const Library library = gen::compile(kernels_, source, printed);
-    set_function(library.function);
+    if (library.function != nullptr) set_function(library.function);
+    has_function_ = had_function || library.function != nullptr;
     if (library.apply == nullptr) return;
     work_ = host::allocate_array(printed.work);
     work_length_ = printed.work;
@@ -72,7 +74,8 @@ void Operator::compile(const CeedProgram &program, bool with_loop) {
     apply_ = library.apply;
   } catch (const NotCompiled &reason) {
     if (is_set("CEED_JIT_ERROR_ON_FAILURE") && dynamic_cast<const NoSource *>(&reason) == nullptr) {
-      has_function_ = has_loop_ = false;  // the next call is an error again
+      has_function_ = had_function;
+      has_loop_ = false;  // the next call is an error again
       throw;
     }
     const std::string what =

@@ -18,6 +18,7 @@ struct Printed {
   std::string text;                         ///< empty where the program is not one that is printed
   std::vector<const CeedScalar *> numbers;  ///< Job::numbers, which belong to the bases
   std::size_t work = 0;                     ///< length of Job::work
+  bool does_all = false;                    ///< all elements: the QFunction is not called from elsewhere
 };
 
 /// Lines, and the arrays and numbers that they name.

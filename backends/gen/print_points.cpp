@@ -65,7 +65,9 @@ class PointPrinter {
     to_.line("}}");
     to_.line("return 0;");
     to_.line("}}");
-    return std::move(to_).printed();
+    Printed printed = std::move(to_).printed();
+    printed.does_all = true;
+    return printed;
   }
 
  private:
