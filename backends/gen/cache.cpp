@@ -12,6 +12,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <sstream>
 #include <system_error>
 
 #define XXH_INLINE_ALL
@@ -66,6 +67,7 @@ class Passing {
   ~Passing() { ::unlink(path_.c_str()); }
   const fs::path &path() const { return path_; }
   void become(const fs::path &name) const {
+    ::chmod(path_.c_str(), 0600);  // whatever the umask is
     if (::rename(path_.c_str(), name.c_str()) != 0) {
       throw NotCompiled("'" + name.string() + "' cannot be written: " + reason(errno));
     }
@@ -94,6 +96,17 @@ class Lock {
   fs::path path_;
   int file_ = -1;
 };
+
+/// The files of an entry: the library, its text, what the compiler said where that was wanted.
+fs::path with(fs::path entry, const char *extension) {
+  return entry.replace_extension(extension);
+}
+
+std::string text_in(const fs::path &file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
 
 bool is_there(const fs::path &file) {
   return ::access(file.c_str(), F_OK) == 0;
@@ -132,9 +145,10 @@ Cache::Cache() : folder_(chosen_folder()), largest_(largest_size()) {
 
 void Cache::keep(const fs::path &name, const std::string &text) const {
   const fs::path file = folder_ / name;
-  if (is_there(file)) return;
   std::error_code failure;
-  fs::create_directories(file.parent_path(), failure);
+  if (fs::file_size(file, failure) == text.size()) return;  // a crash of the machine may have cut it short
+  fs::path folder = folder_;
+  for (const fs::path &part : name.parent_path()) ::mkdir((folder /= part).c_str(), 0700);
   const Passing passing(own(file));
   std::ofstream stream(passing.path());
   stream << text << std::flush;
@@ -157,6 +171,7 @@ void *Cache::library(const Compiler &compiler, const Request &request, std::stri
     const bool is_found = is_there(file);
     if (is_found) {
       ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0);  // was used now
+      if (request.is_report_wanted) *said = text_in(with(file, ".txt"));
     } else {
       compile(compiler, request, name, said);
     }
@@ -186,6 +201,7 @@ void Cache::compile(const Compiler &compiler, const Request &request, const std:
     if (!is_there(library.path()) || !outcome.is_done) {
       throw NotCompiled("the compiler refuses it:\n" + outcome.messages);
     }
+    if (request.is_report_wanted) keep(with(file, ".txt").filename(), outcome.messages);
     library.become(file);
   } catch (const NotCompiled &) {
     ::unlink(source.c_str());
@@ -206,21 +222,17 @@ void Cache::trim() const {
   std::error_code gone;  // another process may be at the same work
   for (const auto &found : fs::directory_iterator(folder_, gone)) {
     if (found.path().extension() != ".so") continue;
-    fs::path source = found.path();
-    source.replace_extension(".cpp");
     const auto size_of = [&](const fs::path &file) {
       const std::uintmax_t size = fs::file_size(file, gone);
       return gone ? 0 : size;
     };
-    entries.push_back({found.path(), found.last_write_time(gone), size_of(found.path()) + size_of(source)});
+    entries.push_back(
+        {found.path(), found.last_write_time(gone), size_of(found.path()) + size_of(with(found.path(), ".cpp"))});
     total += entries.back().size;
   }
   std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) { return a.used < b.used; });
   for (std::size_t i = 0; i + 1 < entries.size() && total > largest_; i++) {  // the newest is about to be loaded
-    fs::path source = entries[i].library;
-    source.replace_extension(".cpp");
-    fs::remove(entries[i].library, gone);
-    fs::remove(source, gone);
+    for (const char *extension : {".so", ".cpp", ".txt"}) fs::remove(with(entries[i].library, extension), gone);
     total -= entries[i].size;
   }
 }

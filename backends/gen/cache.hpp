@@ -30,8 +30,9 @@ class Cache {
     std::string depends_on;            ///< what beside these decides what comes out
     bool is_report_wanted;             ///< see Compiler::compile()
   };
-  /// The library, opened once in a process, where it stays. `said`: what the compiler said; untouched where nothing was
-  /// compiled now. Throws NotCompiled, with the compiler's messages.
+  /// The library, opened once in a process, where it stays. `said`: what the compiler said, now or, where a report is
+  /// wanted, when it was compiled; untouched where it is open already. Throws NotCompiled, with the compiler's
+  /// messages.
   void *library(const Compiler &compiler, const Request &request, std::string *said) const;
   /// Makes sure that a file of this name is there, with this text.
   void keep(const std::filesystem::path &name, const std::string &text) const;

@@ -73,7 +73,9 @@ Compiler::Outcome run(const std::vector<std::string> &command) {
   if (failure != 0) throw NotCompiled("'" + command[0] + "': " + std::generic_category().message(failure));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return outcome;  // somebody else has waited for it: what it made is missing, or is there
+    if (errno == EINTR) continue;
+    outcome.is_done = true;  // somebody else has waited for it: what it was to make is missing, or is there
+    return outcome;
   }
   outcome.is_done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   return outcome;
