@@ -1,6 +1,7 @@
 // Operators that cannot be compiled, or whose cache others change: they are told of and run interpreted.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <fstream>
@@ -196,6 +197,18 @@ TEST_F(GenObstacles, NoRoom) {
   EXPECT_EQ(num_cached(".so"), num_made_with_room);
 }
 
+/// Programs that let nobody wait for processes.
+TEST_F(GenObstacles, NobodyWhoWaitsIsNone) {
+  const Ran ran = in_process(environment({{"CEED_JIT_ERROR_ON_FAILURE", "1"}}), [&] {
+    ::signal(SIGCHLD, SIG_IGN);
+    return work(compiled_resource, function_);
+  });
+  EXPECT_EQ(ran.failure, "");
+  EXPECT_EQ(num_cached(".so"), num_made());
+  write("scale.h", "scale", "this is no C", scale<7>);
+  expect_error_where_asked_for({}, no_limit, "scale.h:1:");
+}
+
 /// What an obstacle stopped goes on when it is out of the way.
 TEST_F(GenObstacles, ComputesRightlyAfterwards) {
   for (const Environment &changes : {Environment{{"CEED_CXX", "no-such-compiler"}}, Environment{}}) {
@@ -293,14 +306,31 @@ TEST_F(GenCache, KeepsWhatIsUsed) {
   EXPECT_EQ(num_made(), 4);
 }
 
-/// A library that a crash of the machine left without its contents.
-TEST_F(GenCache, MakesEmptyLibrariesAnew) {
+/// Whatever the umask of the program is, nobody else can change what is going to be run.
+TEST_F(GenCache, IsNobodyElsesToWrite) {
+  fs::create_directory(cache());
+  fs::permissions(cache(), fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec);
+  expect_compiled(in_process(environment(), [&] {
+    ::umask(0);
+    return work(compiled_resource, function_);
+  }));
+  int count = 0;
+  for (const auto &found : fs::recursive_directory_iterator(cache())) {
+    EXPECT_EQ(found.status().permissions() & (fs::perms::group_write | fs::perms::others_write), fs::perms::none)
+        << found.path();
+    count++;
+  }
+  EXPECT_GE(count, 10) << "libraries, texts, headers";
+}
+
+/// Files that a crash of the machine left without their contents.
+TEST_F(GenCache, MakesEmptyFilesAnew) {
   const auto again = [&] { return in_process(environment(), [&] { return work(compiled_resource, function_); }); };
   expect_compiled(again());
   const int count = num_made();
   EXPECT_EQ(num_cached(".so"), count);
-  for (const auto &found : fs::directory_iterator(cache())) {
-    if (found.path().extension() == ".so") fs::resize_file(found.path(), 0);
+  for (const auto &found : fs::recursive_directory_iterator(cache())) {
+    if (found.is_regular_file()) fs::resize_file(found.path(), 0);
   }
   for (int i = 0; i < 2; i++) {
     expect_compiled(again());

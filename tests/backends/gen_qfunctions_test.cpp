@@ -71,7 +71,8 @@ TEST_F(GenQFunctions, HaveTheirLoopsReported) {
       if (at_points) model.place_points(std::vector<CeedInt>(11, 9), random);
       return Results{model.apply()};
     };
-    const Ran ran = in_process(environment({{"CEED_GEN_REPORT", "1"}, {"CEED_GEN_FLAGS", ""}}), work);
+    const Environment reporting = environment({{"CEED_GEN_REPORT", "1"}, {"CEED_GEN_FLAGS", ""}});
+    const Ran ran = in_process(reporting, work);
     ASSERT_EQ(ran.failure, "");
     EXPECT_NE(ran.err.find("'soften'"), std::string::npos) << ran.err;
     const auto at = ran.err.find(place);
@@ -83,6 +84,12 @@ TEST_F(GenQFunctions, HaveTheirLoopsReported) {
                                         line.find("optimized: loop vectorized") != std::string::npos);
     }
     EXPECT_TRUE(is_vectorized) << ran.err;
+    // A second process has the same to tell, and compiles nothing for that.
+    const int count = num_made();
+    const Ran again = in_process(reporting, work);
+    EXPECT_EQ(again.failure, "");
+    EXPECT_EQ(again.err, ran.err);
+    EXPECT_EQ(num_made(), count);
   }
 }
 

@@ -226,6 +226,23 @@ TEST_F(GenChanges, OfAHeaderBelowASourceRootCount) {
   EXPECT_EQ(num_made(), 2);
 }
 
+/// Names of files and folders are what they are.
+TEST_F(GenChanges, OfFoldersWithSpacesCount) {
+  const std::filesystem::path odd = folder() / "one two's (3)";
+  std::filesystem::create_directory(odd);
+  const auto write_odd = [&](const char *factor) {
+    write("one two's (3)/odd factor.h", "", std::string("#define FACTOR ") + factor + "\n", nullptr);
+  };
+  function_ =
+      write("one two's (3)/odd scale.h", "scale", "#include <odd factor.h>\n#include \"../scale.h\"\n", scale<7>);
+  const Environment own{{"CEED_CACHE_DIR", odd / "the cache"}};
+  write_odd("8");
+  expect_factor(8, own, "", odd);
+  write_odd("9");
+  expect_factor(9, own, "", odd);
+  EXPECT_EQ(num_made(), 2);
+}
+
 TEST_F(GenChanges, OfTheTextCount) {
   expect_factor(3);
   write("scale.h", "scale",
