@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <iostream>
 #include <numeric>
 #include <sstream>
 
@@ -51,6 +53,48 @@ TEST_F(GenQFunctions, MayBranchAndCallFunctions) {
     EXPECT_GT(max_difference(model.apply(), want[2]), 1e-3);
   }
 }
+
+/// Whether a library calls log() for one number, where it could for several.
+bool calls_scalar_log(const std::filesystem::path &library) {
+  const Finished symbols = run("nm -D --undefined-only " + quoted(library));
+  EXPECT_EQ(symbols.code, 0) << symbols.err;
+  return symbols.out.find(" log@") != std::string::npos || symbols.out.find(" log\n") != std::string::npos;
+}
+
+#if defined(__x86_64__) && defined(__GLIBC_PREREQ)
+#if __GLIBC_PREREQ(2, 35)
+/// At points all of a QFunction's work is SIMD, however few points are left, and whatever functions it calls.
+TEST_F(GenQFunctions, CallSimdFunctionsAtPoints) {
+  if (!is_gcc()) GTEST_SKIP() << real_compiler() << " is not GCC";
+  for (const char *isa : {"portable", "avx2", "avx512"}) {
+    const std::filesystem::path cache = folder() / isa;
+    const Environment own = environment({{"CEED_HOST_ISA", isa}, {"CEED_GEN_FLAGS", ""}, {"CEED_CACHE_DIR", cache}});
+    const Ran ran = in_process(own, [&] {
+      Ceed ceed = nullptr;
+      ::setenv("CEED_ERROR_HANDLER", "return", 1);
+      if (CeedInit(resource, &ceed) != CEED_ERROR_SUCCESS) return Results{};  // not on this machine
+      const CeedHandle owner{ceed};
+      Model model(ceed, {.dim = 3, .at_points = true}, {soften, soften_loc}, soft);
+      Random random(7905);
+      model.place_points({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 40}, random);
+      return Results{model.apply()};
+    });
+    ASSERT_EQ(ran.failure, "");
+    if (ran.results.empty()) {
+      std::cout << "not on this machine: " << isa << '\n';
+      continue;
+    }
+    int count = 0;
+    for (const auto &found : std::filesystem::directory_iterator(cache)) {
+      if (found.path().extension() != ".so") continue;
+      count++;
+      EXPECT_FALSE(calls_scalar_log(found.path())) << isa;
+    }
+    EXPECT_EQ(count, 1);
+  }
+}
+#endif
+#endif
 
 /// The report leads to the loop in the user's file.
 TEST_F(GenQFunctions, HaveTheirLoopsReported) {

@@ -14,6 +14,10 @@
 #define CEED_QFUNCTION_HELPER_ATTR __attribute__((always_inline))
 #define CEED_QFUNCTION_HELPER __attribute__((always_inline)) static inline
 #define restrict __restrict__
+// Loops over points are for SIMD, short ones as well, whose iterations GCC would write out before it comes to that.
+#if defined(__GNUC__) && !defined(__clang__)
+#define CeedPragmaSIMD _Pragma("GCC ivdep") _Pragma("GCC unroll 1")
+#endif
 #include <ceed/types.h>
 
 // The C library has these functions for numbers side by side, but tells compilers so only where they may be careless of

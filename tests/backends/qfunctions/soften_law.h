@@ -14,9 +14,10 @@ typedef struct {
 
 /// l = √(1 + c u²) up to the limit, then limit (1 + rate log(l/limit)).
 CEED_QFUNCTION_HELPER CeedScalar soften_law(const SoftenContext *context, CeedScalar u, CeedScalar c) {
-  const CeedScalar l = sqrt(1 + c * u * u), beyond = log(l / context->limit);
-  if (l < context->limit) return l;
-  return context->limit * (1 + context->rate * beyond);
+  const CeedScalar limit = context->limit, rate = context->rate;  // what a branch alone reads hinders SIMD
+  const CeedScalar l = sqrt(1 + c * u * u), beyond = log(l / limit);
+  if (l < limit) return l;
+  return limit * (1 + rate * beyond);
 }
 
 #endif
