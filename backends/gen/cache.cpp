@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <link.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -112,6 +113,20 @@ bool is_there(const fs::path &file) {
   return ::access(file.c_str(), F_OK) == 0;
 }
 
+/// Whether a library goes on to the table of its sections, which is the end of it. The loader does not look, and the
+/// process that loads one which a crash of the machine cut short is ended by a signal.
+bool is_whole(const fs::path &library) {
+#if defined(__ELF__)
+  ElfW(Ehdr) header{};
+  std::ifstream stream(library, std::ios::binary);
+  if (!stream.read(reinterpret_cast<char *>(&header), sizeof header)) return false;
+  std::error_code ignored;
+  return fs::file_size(library, ignored) >= header.e_shoff + std::uintmax_t{header.e_shnum} * header.e_shentsize;
+#else
+  return is_there(library);
+#endif
+}
+
 }  // namespace
 
 std::string digest(const std::string &text) {
@@ -168,7 +183,7 @@ void *Cache::library(const Compiler &compiler, const Request &request, std::stri
   if (const auto found = opened.find(file); found != opened.end()) return found->second;
   // What is there may be cut short, and what was there a moment ago may be gone, as room for another process's entry.
   for (int attempts_left = 2;; attempts_left--) {
-    const bool is_found = is_there(file);
+    const bool is_found = is_whole(file);
     if (is_found) {
       ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0);  // was used now
       if (request.is_report_wanted) *said = text_in(with(file, ".txt"));
@@ -191,7 +206,7 @@ void Cache::compile(const Compiler &compiler, const Request &request, const std:
                     std::string *said) const {
   const Lock one_process(folder_ / (name + ".lock"));
   const fs::path source = folder_ / (name + ".cpp"), file = folder_ / (name + ".so");
-  if (is_there(file)) return;
+  if (is_whole(file)) return;
   keep(source.filename(), request.text);
   try {
     const Passing library(own(file));

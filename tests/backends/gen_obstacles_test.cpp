@@ -323,18 +323,20 @@ TEST_F(GenCache, IsNobodyElsesToWrite) {
   EXPECT_GE(count, 10) << "libraries, texts, headers";
 }
 
-/// Files that a crash of the machine left without their contents.
-TEST_F(GenCache, MakesEmptyFilesAnew) {
+/// Files of which a crash of the machine left nothing, or a part.
+TEST_F(GenCache, MakesCutFilesAnew) {
   const auto again = [&] { return in_process(environment(), [&] { return work(compiled_resource, function_); }); };
   expect_compiled(again());
   const int count = num_made();
   EXPECT_EQ(num_cached(".so"), count);
-  for (const auto &found : fs::recursive_directory_iterator(cache())) {
-    if (found.is_regular_file()) fs::resize_file(found.path(), 0);
-  }
-  for (int i = 0; i < 2; i++) {
-    expect_compiled(again());
-    EXPECT_EQ(num_made(), 2 * count);
+  for (const int round : {1, 2}) {
+    for (const auto &found : fs::recursive_directory_iterator(cache())) {
+      if (found.is_regular_file()) fs::resize_file(found.path(), round == 1 ? 0 : found.file_size() / 2);
+    }
+    for (int i = 0; i < 2; i++) {
+      expect_compiled(again());
+      EXPECT_EQ(num_made(), (round + 1) * count);
+    }
   }
 }
 
