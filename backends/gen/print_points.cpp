@@ -1,6 +1,7 @@
 /// Operators at points of the elements' own: nodes are gathered and turned into Chebyshev coefficients for W elements
-/// side by side; then, element by element, up to two packs of points go through evaluation, QFunction and integration
-/// at once: what is at a point is there for that long only, and polynomials are tabulated once for all fields.
+/// side by side; then up to two packs of points, along one element or across all, go through evaluation, QFunction and
+/// integration at once: what is at a point is there for that long only, and polynomials are tabulated once for all
+/// fields.
 #include <algorithm>
 
 #include "../host/access.hpp"
@@ -45,24 +46,15 @@ class PointPrinter {
   Printed print(bool is_exact, CeedInt vec_length) {
     to_.line("extern \"C\" __attribute__((visibility(\"default\"))) int hg_apply(Job *job) {{");
     declare();
-    to_.line("Ahead ahead;");
-    to_.line("for (CeedInt first = job->first; first < job->end; first += W) {{");
-    to_.line("const CeedInt num_elem = job->end - first < W ? job->end - first : W;");
-    to_.line("if (first_point(*job->points, first + num_elem) == first_point(*job->points, first)) continue;");
-    for (CeedInt s = 0; s < program_.num_sources; s++) read_nodes(s);
-    for (const Evaluation &e : evaluations_) to_coefficients(e);
-    to_.line("for (CeedInt lane = 0; lane < num_elem; lane++) {{");
-    for (const Evaluation &e : integrations_)
-      to_.line("clear<{}>({});", num_coefficients(e), name(integrations_, e, "sums"));
-    print_points(is_exact, vec_length);
-    for (const Evaluation &e : integrations_) {
-      to_.line("reduce<W>({}, {}, {} + lane);", name(integrations_, e, "sums"), num_coefficients(e),
-               name(integrations_, e, "back"));
+    to_.line("Ahead ahead{{}}, ahead_x{{}};");
+    for (CeedInt s = 0; s < program_.num_sources; s++) {
+      if (program_.sources[s].is_points) to_.line("Ahead ahead{}{{}};", s);
     }
-    to_.line("}}");
-    for (const Evaluation &e : integrations_) from_coefficients(e);
-    for (CeedInt t = 0; t < program_.num_sinks; t++) write_nodes(t);
-    to_.line("}}");
+    if (evaluations_.empty() && integrations_.empty()) {
+      print_list(is_exact, vec_length);
+    } else {
+      print_blocks(is_exact, vec_length);
+    }
     to_.line("return 0;");
     to_.line("}}");
     Printed printed = std::move(to_).printed();
@@ -142,23 +134,115 @@ class PointPrinter {
     }
   }
 
-  void print_points(bool is_exact, CeedInt vec_length) {
-    to_.line("const CeedInt start = first_point(*job->points, first + lane);");
-    to_.line("const CeedInt num_points = first_point(*job->points, first + lane + 1) - start;");
-    to_.line("const auto some_points = [&](auto count, CeedInt p, CeedInt stride) __attribute__((always_inline)) {{");
-    to_.line("constexpr int packs = decltype(count)::value;");
-    to_.line("const CeedInt n = num_points - p < packs * W ? num_points - p : packs * W;");
-    to_.line("alignas(64) CeedScalar x_ref[({} * packs + 1) * W];", program_at_points_dim());
-    to_.line("read_points<{}>(*job->points, job->x_ref, SomePoints{{start + p, n, stride}}, x_ref);",
+  /// Where nothing belongs to elements the points of all lie along one.
+  void print_list(bool is_exact, CeedInt vec_length) {
+    print_some_points();
+    to_.line("const CeedInt start = first_point(*job->points, job->first);");
+    to_.line("const CeedInt num_points = first_point(*job->points, job->end) - start;");
+    print_along("job->first", "0", "element_of(*job->points, job->end, start + p)", is_exact, vec_length);
+  }
+
+  void print_blocks(bool is_exact, CeedInt vec_length) {
+    print_some_points();
+    to_.line("for (CeedInt first = job->first; first < job->end; first += W) {{");
+    to_.line("const CeedInt num_elem = job->end - first < W ? job->end - first : W;");
+    to_.line("const BlockPoints block(*job->points, first, num_elem);");
+    to_.line("if (block.total == 0) continue;");
+    ask_for_points();
+    for (CeedInt s = 0; s < program_.num_sources; s++) read_nodes(s);
+    for (const Evaluation &e : evaluations_) to_coefficients(e);
+    if (!is_exact) {
+      to_.line("if (block.is_across) {{");
+      print_across();
+      to_.line("}} else {{");
+    }
+    to_.line("for (CeedInt lane = 0; lane < num_elem; lane++) {{");
+    to_.line("const CeedInt num_points = block.count[lane];");
+    for_integrations(
+        [&](const std::string &sums, const std::string &, CeedInt n) { to_.line("clear<{}>({});", n, sums); });
+    print_along("first + lane", "lane", "first + lane", is_exact, vec_length);
+    for_integrations([&](const std::string &sums, const std::string &back, CeedInt n) {
+      to_.line("reduce<W>({}, {}, {} + lane);", sums, n, back);
+    });
+    to_.line("}}");
+    if (!is_exact) to_.line("}}");
+    for (const Evaluation &e : integrations_) from_coefficients(e);
+    for (CeedInt t = 0; t < program_.num_sinks; t++) write_nodes(t);
+    to_.line("}}");
+  }
+
+  /// What is stored at the points of the next block is asked for while this one is worked on.
+  void ask_for_points() {
+    to_.line("ahead_x = points_ahead<{}>(*job->points, job->x_ref, first + num_elem, job->end);",
              program_at_points_dim());
-    for (const CeedInt K : tables()) {
-      to_.line("PointTable table{}[packs];", K);
-      to_.line("tabulate<packs>({}, {}, x_ref, stride, table{});", program_at_points_dim(), K, K);
+    for (CeedInt s = 0; s < program_.num_sources; s++) {
+      if (!program_.sources[s].is_points) continue;
+      to_.line("ahead{0} = points_ahead<{1}>(job->sources[{0}], job->inputs[{0}], first + num_elem, job->end);", s,
+               program_.sources[s].num_comp);
+    }
+  }
+
+  template <typename Visit>
+  void for_integrations(Visit &&visit) const {
+    for (const Evaluation &e : integrations_) {
+      visit(name(integrations_, e, "sums"), name(integrations_, e, "back"), num_coefficients(e));
+    }
+  }
+
+  /// Two points of each element at a time.
+  void print_across() {
+    for_integrations(
+        [&](const std::string &, const std::string &back, CeedInt n) { to_.line("clear<{}>({});", n, back); });
+    to_.line("for (CeedInt k = 0; k < block.most; k += 2) {{");
+    to_.line("const int code = k + 1 < block.most ? some_points(Count<2>(), Across{{block, k, 2 * W}})");
+    to_.line("                                    : some_points(Count<1>(), Across{{block, k, W}});");
+    print_failure("first");
+    to_.line("}}");
+  }
+
+  void print_failure(const char *element) {
+    to_.line("if (code != 0) {{");
+    to_.line("job->failed = {};", element);
+    to_.line("return code;");
+    to_.line("}}");
+  }
+
+  /// num_points points of one element, two packs at a time.
+  void print_along(const char *element, const char *lane, const char *failed, bool is_exact, CeedInt vec_length) {
+    to_.line("for (CeedInt p = 0; p < num_points;) {{");
+    to_.line("const CeedInt left = num_points - p;");
+    const auto some = [&](int packs, const char *n, const char *stride) {
+      return fmt::format("some_points(Count<{}>(), Along{{{}, {}, p, {}, {}}})", packs, element, lane, n, stride);
+    };
+    if (is_exact) {
+      to_.line("const CeedInt stride = left < W ? (left + {0} - 1) / {0} * {0} : W;", vec_length);
+      to_.line("const int code = left > 2 * W - 1 ? {}", some(2, "2 * W", "2 * W"));
+      to_.line("                 : {};", some(1, "left < W ? left : W", "stride"));
+    } else {
+      to_.line("const int code = left > W ? {}", some(2, "left < 2 * W ? left : 2 * W", "2 * W"));
+      to_.line("                          : {};", some(1, "left", "W"));
+    }
+    print_failure(failed);
+    to_.line("p += left > {} ? 2 * W : W;", is_exact ? "2 * W - 1" : "W");
+    to_.line("}}");
+  }
+
+  /// All that is done with one or two packs of points.
+  void print_some_points() {
+    to_.line("const auto some_points = [&](auto count, const auto &points) __attribute__((always_inline)) {{");
+    to_.line("constexpr int packs = decltype(count)::value;");
+    to_.line("const CeedInt stride = points.stride;");
+    if (const std::vector<CeedInt> all = tables(); !all.empty()) {
+      to_.line("ask<packs>(ahead_x);");
+      to_.line("alignas(64) CeedScalar x_ref[({} * packs + 1) * W];", program_at_points_dim());
+      to_.line("read_points<{}>(*job->points, job->x_ref, points, x_ref);", program_at_points_dim());
+      for (const CeedInt K : all) {
+        to_.line("PointTable table{}[packs];", K);
+        to_.line("tabulate<packs>({}, {}, x_ref, stride, table{});", program_at_points_dim(), K, K);
+      }
     }
     for (CeedInt i = 0; i < program_.num_inputs; i++) declare_input(i);
-    for (const Evaluation &e : evaluations_) {
-      evaluate(e);
-    }
+    for (const Evaluation &e : evaluations_) evaluate(e);
     std::vector<std::string> in, out;
     for (CeedInt i = 0; i < program_.num_inputs; i++) in.push_back(fmt::format("in{}", i));
     for (CeedInt o = 0; o < program_.num_outputs; o++) {
@@ -173,23 +257,6 @@ class PointPrinter {
     for (CeedInt o = 0; o < program_.num_outputs; o++) write(o);
     to_.line("return 0;");
     to_.line("}};");
-    to_.line("for (CeedInt p = 0; p < num_points;) {{");
-    to_.line("const CeedInt left = num_points - p;");
-    if (is_exact) {
-      to_.line("const CeedInt stride = left < W ? (left + {0} - 1) / {0} * {0} : W;", vec_length);
-      to_.line(
-          "const int code = left > 2 * W - 1 ? some_points(Count<2>(), p, 2 * W) : left >= W ? some_points(Count<1>(), "
-          "p, W)");
-      to_.line("                 : some_points(Count<1>(), p, stride);");
-    } else {
-      to_.line("const int code = left > W ? some_points(Count<2>(), p, 2 * W) : some_points(Count<1>(), p, W);");
-    }
-    to_.line("if (code != 0) {{");
-    to_.line("job->failed = first;");
-    to_.line("return code;");
-    to_.line("}}");
-    to_.line("p += left > {} ? 2 * W : W;", is_exact ? "2 * W - 1" : "W");
-    to_.line("}}");
   }
 
   CeedInt program_at_points_dim() const {
@@ -215,25 +282,26 @@ class PointPrinter {
     if (field.eval_mode == CEED_EVAL_WEIGHT) {
       to_.line("for (CeedInt q = 0; q < stride; q++) in{}[q] = 1;", i);
     } else if (field.eval_mode == CEED_EVAL_NONE) {
-      to_.line(
-          "read_points<{0}>(job->sources[{1}], job->inputs[{1}], SomePoints{{first_point(job->sources[{1}], first + "
-          "lane) + p, n, stride}}, in{2});",
-          field.size, field.side, i);
+      to_.line("ask<packs>(ahead{});", field.side);
+      to_.line("read_points<{0}>(job->sources[{1}], job->inputs[{1}], points, in{2});", field.size, field.side, i);
     }
   }
 
   void evaluate(const Evaluation &e) {
     const PointBasis &b = basis(e);
-    to_.line("evaluate_at<{}, {}, {}, {}>(table{}, {} + lane, SomePoints{{0, n, stride}}, {}, {});", b.dim(), b.K(),
-             b.num_comp(), e.derivative >= 0, b.K(), name(evaluations_, e, "coefficients"), array_name("in", e.interp),
+    to_.line("evaluate_at<{}, {}, {}, {}>(table{}, {}, points, {}, {});", b.dim(), b.K(), b.num_comp(),
+             e.derivative >= 0, b.K(), name(evaluations_, e, "coefficients"), array_name("in", e.interp),
              array_name("in", e.derivative));
   }
 
   void integrate(const Evaluation &e) {
     const PointBasis &b = basis(e);
-    to_.line("integrate_at<{}, {}, {}, {}>(table{}, SomePoints{{0, n, stride}}, {}, {}, {});", b.dim(), b.K(),
-             b.num_comp(), e.derivative >= 0, b.K(), array_name("out", e.interp), array_name("out", e.derivative),
-             name(integrations_, e, "sums"));
+    for (const int o : {e.interp, e.derivative}) {
+      if (o >= 0) to_.line("drop_repeated<{}>(points, out{});", program_.outputs[o].size, o);
+    }
+    to_.line("integrate_at<{}, {}, {}, {}>(table{}, points, {}, {}, {}, {});", b.dim(), b.K(), b.num_comp(),
+             e.derivative >= 0, b.K(), array_name("out", e.interp), array_name("out", e.derivative),
+             name(integrations_, e, "sums"), name(integrations_, e, "back"));
   }
 
   static std::string array_name(const char *what, int place) {
@@ -243,10 +311,7 @@ class PointPrinter {
   void write(CeedInt o) {
     const CeedProgramField &field = program_.outputs[o];
     if (field.eval_mode != CEED_EVAL_NONE) return;
-    to_.line(
-        "add_points<{0}>(job->sinks[{1}], SomePoints{{first_point(job->sinks[{1}], first + lane) + p, n, stride}}, "
-        "out{2}, job->outputs[{1}]);",
-        field.size, field.side, o);
+    to_.line("add_points<{0}>(job->sinks[{1}], points, out{2}, job->outputs[{1}]);", field.size, field.side, o);
   }
 
   void write_nodes(CeedInt t) {
@@ -275,15 +340,9 @@ Printed print_points(const host::Kernels &kernels, const CeedProgram &program, c
     if (!takes(program.sinks[t])) return {};
   }
   CeedInt vec_length = 1;
-  CeedQFunctionContext context = nullptr;
-  bool is_writable = false;
   host::chk(CeedQFunctionGetVectorLength(program.qf, &vec_length));
-  host::chk(CeedQFunctionGetContext(program.qf, &context));
-  host::chk(CeedQFunctionIsContextWritable(program.qf, &is_writable));
-  const bool is_exact = context != nullptr && is_writable;  // the QFunction may count its points
-  host::chk(CeedQFunctionContextDestroy(&context));
   if (kernels.width % vec_length != 0) return {};
-  return PointPrinter(program, function, bases, kernels.width).print(is_exact, vec_length);
+  return PointPrinter(program, function, bases, kernels.width).print(host::may_count_points(program.qf), vec_length);
 }
 
 }  // namespace hg::gen

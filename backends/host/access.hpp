@@ -155,6 +155,18 @@ void for_each_active(const CeedProgramField *fields, CeedInt count, Visit &&visi
   }
 }
 
+/// Whether a QFunction may write its context, so that it may count the points that it is called for: it is to see each
+/// once.
+inline bool may_count_points(CeedQFunction qf) {
+  CeedQFunctionContext context = nullptr;
+  bool is_writable = false;
+  chk(CeedQFunctionIsContextWritable(qf, &is_writable));
+  chk(CeedQFunctionGetContext(qf, &context));
+  const bool has_context = context != nullptr;
+  chk(CeedQFunctionContextDestroy(&context));
+  return has_context && is_writable;
+}
+
 /// Throws where the QFunction of a program returned another code than 0 for the elements from `first` on.
 inline void check_returned(const CeedProgram &program, int code, CeedInt first, CeedInt num_elem) {
   if (code == 0) return;

@@ -56,9 +56,10 @@ struct EntryPlaces {
   CeedSize row_stride, elem_stride;
 };
 
-/// The points of one element, and what is evaluated there: num_comp functions, given by K^dim Chebyshev coefficients c
-/// each, (component, k_(dim-1), ..., k_0), of which entry k is at coefficients[k*W] (those of an element in a block).
-/// Arrays at points have `stride` numbers between components, and dim*num_comp components for derivatives, the
+/// The points of one element, or of W side by side, and what is evaluated there: num_comp functions, given by K^dim
+/// Chebyshev coefficients c each, (component, k_(dim-1), ..., k_0). Along an element entry k is at coefficients[k*W]
+/// (those of an element in a block); across W elements, to which the points belong in turn, at coefficients[k*W +
+/// lane]. Arrays at points have `stride` numbers between components, and dim*num_comp components for derivatives, the
 /// direction slower than the component; max_width numbers more, after the last one, can be read, and are written back.
 struct PointEvaluation {
   CeedInt dim, K, num_comp, num_points;
@@ -69,7 +70,7 @@ struct PointEvaluation {
 /// values, or NULL; derivatives where the kernel is one with derivatives
 using EvaluatePoints = void (*)(const PointEvaluation &evaluation, const CeedScalar *coefficients, CeedScalar *values,
                                 CeedScalar *derivatives);
-/// The transpose: coefficients are overwritten; `sums`: max_width num_comp K^dim numbers to work with.
+/// The transpose: coefficients are overwritten; `sums`: max_width num_comp K^dim numbers to work with along an element.
 using IntegratePoints = void (*)(const PointEvaluation &evaluation, const CeedScalar *values,
                                  const CeedScalar *derivatives, CeedScalar *sums, CeedScalar *coefficients);
 
@@ -107,8 +108,8 @@ struct Kernels {
   Contraction (*contraction)(CeedInt M, CeedInt N, Symmetry symmetry, bool add);
 
   /// The kernels for K coefficients of a direction; NULL where there are too many.
-  EvaluatePoints (*point_evaluation)(CeedInt K, bool with_derivatives);
-  IntegratePoints (*point_integration)(CeedInt K, bool with_derivatives);
+  EvaluatePoints (*point_evaluation)(CeedInt K, bool with_derivatives, bool is_across);
+  IntegratePoints (*point_integration)(CeedInt K, bool with_derivatives, bool is_across);
   PointMoments (*point_moments)(CeedInt K);
   IntegrateSquares (*square_integration)(CeedInt K, CeedInt P);
   /// values_(c,p) = l[offsets[p]*num_comp + c], p < num_points; l has l_size numbers

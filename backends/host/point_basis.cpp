@@ -10,7 +10,7 @@ bool PointBasis::takes(const Kernels &kernels, CeedBasis basis) {
   CeedInt num_coeff = 0;
   const CeedScalar *coefficients = nullptr;
   chk(CeedBasisGetChebyshevCoefficients1D(basis, &num_coeff, &coefficients));
-  return num_coeff > 0 && kernels.point_evaluation(num_coeff, true) != nullptr;
+  return num_coeff > 0 && kernels.point_evaluation(num_coeff, true, false) != nullptr;
 }
 
 PointBasis::PointBasis(const Kernels &kernels, CeedBasis basis) : width_(kernels.width) {
@@ -21,8 +21,10 @@ PointBasis::PointBasis(const Kernels &kernels, CeedBasis basis) : width_(kernels
   chk(CeedBasisGetChebyshevCoefficients1D(basis, &K_, &coefficients));
   matrix_ = Factor(kernels, coefficients, K_, P_);
   for (const bool with_derivatives : {false, true}) {
-    evaluate[with_derivatives] = kernels.point_evaluation(K_, with_derivatives);
-    integrate[with_derivatives] = kernels.point_integration(K_, with_derivatives);
+    for (const bool is_across : {false, true}) {
+      evaluate[with_derivatives][is_across] = kernels.point_evaluation(K_, with_derivatives, is_across);
+      integrate[with_derivatives][is_across] = kernels.point_integration(K_, with_derivatives, is_across);
+    }
   }
 }
 

@@ -34,8 +34,8 @@ class PointBasis {
   /// u (+)= C^T c
   void from_coefficients(const CeedScalar *c, CeedScalar *u, bool add, CeedScalar *work) const;
 
-  EvaluatePoints evaluate[2];    ///< kernels: values alone, derivatives too
-  IntegratePoints integrate[2];  ///< the same
+  EvaluatePoints evaluate[2][2];    ///< kernels: values alone, derivatives too; along an element, across
+  IntegratePoints integrate[2][2];  ///< the same
 
  private:
   CeedInt width_, dim_ = 0, num_comp_ = 0, P_ = 0, K_ = 0;

@@ -29,10 +29,13 @@ PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program,
     : kernels_(&kernels), W_(kernels.width), points_epoch_(program.points_epoch), bases_(std::move(bases)) {
   chk(CeedQFunctionGetUserFunction(program.qf, &function_));
   chk(CeedQFunctionGetVectorLength(program.qf, &vec_length_));
+  is_exact_ = may_count_points(program.qf);
   chk(CeedElemRestrictionGetElementMap(program.points_rstr, &points_));
   dim_ = points_->num_comp;
   for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
-    most_points_ = std::max(most_points_, block(first, num_elem).stride);
+    for (const bool is_across : {false, true}) {
+      most_points_ = std::max(most_points_, block(first, num_elem, is_across).stride());
+    }
   });
   for (CeedInt s = 0; s < program.num_sources; s++) sources_.push_back(make_side(kernels, program.sources[s]));
   for (CeedInt t = 0; t < program.num_sinks; t++) sinks_.push_back(make_side(kernels, program.sinks[t]));
@@ -118,28 +121,8 @@ void PointOperator::place_outputs(const CeedProgram &program) {
   }
 }
 
-PointOperator::Block PointOperator::block(CeedInt first, CeedInt num_elem) const {
-  const CeedInt count = points_->offsets[first + num_elem] - points_->offsets[first];
-  return {first, num_elem, count, (count + vec_length_ - 1) / vec_length_ * vec_length_};
-}
-
-/// Where the evaluation of a block begins: at its first element, without points yet.
-PointEvaluation PointOperator::evaluation(const Block &block, const PointBasis &basis, Ahead &ahead) const {
-  return {basis.dim(), basis.K(), basis.num_comp(), 0, arena_[x_ref_], block.stride, &ahead};
-}
-
-/// What an L-vector at points holds for the next block, taken to have as many points as this one and to lie together,
-/// as it does where points are sorted by element. Elsewhere the lines that are asked for are not the right ones.
-Ahead PointOperator::ask_for(const Block &block, const CeedElementMap &map, const CeedScalar *l) const {
-  const CeedInt next = block.first + W_;
-  if (next >= map.num_elem || num_points(next) == 0) return {};
-  constexpr CeedSize line = Ahead::line / static_cast<CeedSize>(sizeof(CeedScalar));
-  CeedSize steps = 0;
-  for (CeedInt lane = 0; lane < block.num_elem; lane++) steps += (num_points(block.first + lane) + W_ - 1) / W_;
-  const CeedSize lines = static_cast<CeedSize>(block.num_points) * map.num_comp / line + 1;
-  return {.next = reinterpret_cast<std::uintptr_t>(l) +
-                  static_cast<CeedSize>(places(map, next)[0]) * map.num_comp * sizeof(CeedScalar),
-          .lines = static_cast<CeedInt>((lines + steps - 1) / steps)};
+PointBlock PointOperator::block(CeedInt first, CeedInt num_elem, bool may_lie_across) const {
+  return {*points_, W_, vec_length_, may_lie_across && !is_exact_, first, num_elem};
 }
 
 namespace {
@@ -152,78 +135,104 @@ Scalar *from_point(Scalar *values, CeedInt point) {
 
 }  // namespace
 
+/// Calls kernel(points, first of them in the arrays, lane of their element) for each element, or at once for all.
+template <typename Kernel>
+void PointOperator::for_points(const PointBlock &block, const PointBasis &basis, Ahead &ahead, Kernel &&kernel) const {
+  PointEvaluation at{basis.dim(), basis.K(), basis.num_comp(), block.size(), arena_[x_ref_], block.stride(), &ahead};
+  if (block.is_across()) return kernel(at, 0, 0);
+  CeedInt point = 0;
+  for (CeedInt lane = 0; lane < block.num_elem(); lane++, point += at.num_points, at.x_ref += at.num_points) {
+    at.num_points = block.num_points_in(lane);
+    kernel(at, point, lane);
+  }
+}
+
+/// What an L-vector at points holds for the next block, taken to have as many points as this one and to lie together,
+/// as it does where points are sorted by element. Elsewhere the lines that are asked for are not the right ones.
+Ahead PointOperator::ask_for(const PointBlock &block, const CeedElementMap &map, const CeedScalar *l) const {
+  const CeedInt next = block.first() + W_;
+  if (next >= map.num_elem || map.offsets[next] == map.offsets[next + 1]) return {};
+  constexpr CeedSize line = Ahead::line / static_cast<CeedSize>(sizeof(CeedScalar));
+  const CeedSize steps = block.num_packs(), lines = static_cast<CeedSize>(block.num_points()) * map.num_comp / line + 1;
+  return {.next = reinterpret_cast<std::uintptr_t>(l) +
+                  static_cast<CeedSize>(map.offsets[map.offsets[next]]) * map.num_comp * sizeof(CeedScalar),
+          .lines = static_cast<CeedInt>((lines + steps - 1) / steps)};
+}
+
 /// The QFunction's inputs for a block of elements; sources that are NULL are left out.
-void PointOperator::read(const Block &block, const CeedScalar *x_ref, const std::vector<const CeedScalar *> &sources) {
+void PointOperator::read(const PointBlock &block, const CeedScalar *x_ref,
+                         const std::vector<const CeedScalar *> &sources) {
   CeedScalar *work = arena_[work_], *coefficients = arena_[coefficients_];
-  kernels_->gather_points(block.num_points, dim_, places(*points_, block.first), x_ref, points_->l_size, block.stride,
-                          arena_[x_ref_]);
+  const auto gather = [&](const CeedElementMap &map, const CeedScalar *l, CeedScalar *values) {
+    kernels_->gather_points(block.size(), map.num_comp, block.places(map, places_), l, map.l_size, block.stride(),
+                            values);
+  };
+  gather(*points_, x_ref, arena_[x_ref_]);
   for (std::size_t s = 0; s < sources_.size(); s++) {
     if (sources[s] == nullptr || sources_[s].block < 0) continue;
-    sources_[s].nodes->gather(block.first, block.num_elem, sources[s], arena_[sources_[s].block], work);
+    sources_[s].nodes->gather(block.first(), block.num_elem(), sources[s], arena_[sources_[s].block], work);
   }
   Ahead ahead = ask_for(block, *points_, x_ref);
   for (const Evaluation &e : evaluations_) {
     if (sources[e.side] == nullptr) continue;
     const PointBasis &basis = this->basis(e.space);
     basis.to_coefficients(arena_[sources_[e.side].block], coefficients, work);
-    PointEvaluation at = evaluation(block, basis, ahead);
-    CeedInt point = 0;
-    for (CeedInt lane = 0; lane < block.num_elem; lane++, point += at.num_points, at.x_ref += at.num_points) {
-      at.num_points = num_points(block.first + lane);
-      basis.evaluate[e.derivative >= 0](at, coefficients + lane, from_point(arena_[e.interp], point),
-                                        from_point(arena_[e.derivative], point));
-    }
+    const EvaluatePoints evaluate = basis.evaluate[e.derivative >= 0][block.is_across()];
+    for_points(block, basis, ahead, [&](const PointEvaluation &at, CeedInt point, CeedInt lane) {
+      evaluate(at, coefficients + lane, from_point(arena_[e.interp], point), from_point(arena_[e.derivative], point));
+    });
     ahead = {};
   }
   for (const Copy &copy : copies_in_) {
-    if (sources[copy.side] == nullptr) continue;
-    const Side &side = sources_[copy.side];
-    kernels_->gather_points(block.num_points, side.num_comp, places(*side.points, block.first), sources[copy.side],
-                            side.points->l_size, block.stride, arena_[copy.array]);
+    if (sources[copy.side] != nullptr) gather(*sources_[copy.side].points, sources[copy.side], arena_[copy.array]);
   }
   for (std::size_t i = 0; i < input_arrays_.size(); i++) pad(block, input_sizes_[i], arena_[input_arrays_[i]]);
 }
 
 /// Fills a component's points up to the stride with the last one, which is a valid one.
-void PointOperator::pad(const Block &block, CeedInt size, CeedScalar *values) const {
-  for (CeedInt c = 0; c < size && block.stride > block.num_points; c++) {
-    CeedScalar *component = values + static_cast<std::size_t>(c) * block.stride;
-    std::fill(component + block.num_points, component + block.stride, component[block.num_points - 1]);
+void PointOperator::pad(const PointBlock &block, CeedInt size, CeedScalar *values) const {
+  for (CeedInt c = 0; c < size && block.stride() > block.size(); c++) {
+    CeedScalar *component = values + static_cast<std::size_t>(c) * block.stride();
+    std::fill(component + block.size(), component + block.stride(), component[block.size() - 1]);
   }
 }
 
 /// Integrates the QFunction's outputs and adds them to the L-vectors of the sinks.
-void PointOperator::write(const Block &block, const std::vector<const CeedScalar *> &sources,
+void PointOperator::write(const PointBlock &block, const std::vector<const CeedScalar *> &sources,
                           const std::vector<CeedScalar *> &sinks) {
   CeedScalar *work = arena_[work_], *coefficients = arena_[coefficients_];
   Ahead ahead;
   if (largest_source_ >= 0) ahead = ask_for(block, *sources_[largest_source_].points, sources[largest_source_]);
   for (const Evaluation &e : integrations_) {
     const PointBasis &basis = this->basis(e.space);
-    PointEvaluation at = evaluation(block, basis, ahead);
-    if (block.num_elem < W_) std::fill_n(coefficients, basis.num_coefficients() * W_, 0.0);
-    CeedInt point = 0;
-    for (CeedInt lane = 0; lane < block.num_elem; lane++, point += at.num_points, at.x_ref += at.num_points) {
-      at.num_points = num_points(block.first + lane);
-      basis.integrate[e.derivative >= 0](at, from_point(arena_[e.interp], point),
-                                         from_point(arena_[e.derivative], point), arena_[sums_], coefficients + lane);
-    }
+    if (block.num_elem() < W_) std::fill_n(coefficients, basis.num_coefficients() * W_, 0.0);
+    const IntegratePoints integrate = basis.integrate[e.derivative >= 0][block.is_across()];
+    block.drop_repeated(basis.num_comp(), arena_[e.interp]);
+    block.drop_repeated(basis.num_comp() * basis.dim(), arena_[e.derivative]);
+    for_points(block, basis, ahead, [&](const PointEvaluation &at, CeedInt point, CeedInt lane) {
+      integrate(at, from_point(arena_[e.interp], point), from_point(arena_[e.derivative], point), arena_[sums_],
+                coefficients + lane);
+    });
     ahead = {};
     basis.from_coefficients(coefficients, arena_[sinks_[e.side].block], e.add, work);
   }
   for (const Result &result : results_) {
-    sinks_[result.side].nodes->to_rows(block.first, block.num_elem, arena_[result.array], arena_[result.rows], work);
+    sinks_[result.side].nodes->to_rows(block.first(), block.num_elem(), arena_[result.array], arena_[result.rows],
+                                       work);
   }
-  for_lanes(results_.size(), block.num_elem, [&](CeedInt lane, CeedInt end) {
+  for_lanes(results_.size(), block.num_elem(), [&](CeedInt lane, CeedInt end) {
     for (const Result &result : results_) {
-      sinks_[result.side].nodes->scatter_add(block.first, block.num_elem, lane, end, arena_[result.rows],
+      sinks_[result.side].nodes->scatter_add(block.first(), block.num_elem(), lane, end, arena_[result.rows],
                                              sinks[result.side]);
     }
   });
   for (const Copy &copy : copies_out_) {
     const Side &side = sinks_[copy.side];
-    kernels_->scatter_add_points(block.num_points, side.num_comp, places(*side.points, block.first), arena_[copy.array],
-                                 block.stride, sinks[copy.side]);
+    const CeedInt *places = block.places(*side.points, places_);
+    block.for_each_run([&](CeedInt first, CeedInt count) {
+      kernels_->scatter_add_points(count, side.num_comp, places + first, arena_[copy.array] + first, block.stride(),
+                                   sinks[copy.side]);
+    });
   }
 }
 
@@ -231,8 +240,8 @@ void PointOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVec
   ProgramArrays arrays(program, in, out, mode);
   ContextData context(program.qf);
   for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
-    const Block block = this->block(first, num_elem);
-    if (block.num_points == 0) return;
+    const PointBlock block = this->block(first, num_elem, true);
+    if (block.num_points() == 0) return;
     read(block, arrays.points(), arrays.sources());
     call(program, block, context.data());
     write(block, arrays.sources(), arrays.sinks());
@@ -241,8 +250,8 @@ void PointOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVec
   arrays.release();
 }
 
-void PointOperator::call(const CeedProgram &program, const Block &block, void *context) {
-  check_returned(program, function_(context, block.stride, in_.data(), out_.data()), block.first, block.num_elem);
+void PointOperator::call(const CeedProgram &program, const PointBlock &block, void *context) {
+  check_returned(program, function_(context, block.stride(), in_.data(), out_.data()), block.first(), block.num_elem());
 }
 
 /// Column by column: the QFunction of a unit value of each active input, all others zero.
@@ -255,11 +264,11 @@ void PointOperator::linear_assemble_qfunction(const CeedProgram &program, CeedIn
   const CeedSize of_point = static_cast<CeedSize>(program.num_active_in) * num_out;
   CeedScalar *to = assembled.data();
   for_blocks(first_elem, first_elem + num_elem, W_, [&](CeedInt first, CeedInt lanes) {
-    const Block block = this->block(first, lanes);
-    if (block.num_points == 0) return;
+    const PointBlock block = this->block(first, lanes, false);  // in the order of the list
+    if (block.num_points() == 0) return;
     read(block, arrays.points(), arrays.sources());
     const auto fill_input = [&](CeedInt i, CeedInt c, CeedScalar value) {
-      std::fill_n(arena_[input_arrays_[i]] + static_cast<std::size_t>(c) * block.stride, block.stride, value);
+      std::fill_n(arena_[input_arrays_[i]] + static_cast<std::size_t>(c) * block.stride(), block.stride(), value);
     };
     for_each_active(program.inputs, program.num_inputs, [&](CeedInt i, CeedInt c, CeedInt) { fill_input(i, c, 0); });
     for_each_active(program.inputs, program.num_inputs, [&](CeedInt i, CeedInt c, CeedInt column) {
@@ -267,11 +276,11 @@ void PointOperator::linear_assemble_qfunction(const CeedProgram &program, CeedIn
       call(program, block, context.data());
       fill_input(i, c, 0);
       for_each_active(program.outputs, program.num_outputs, [&](CeedInt o, CeedInt d, CeedInt row) {
-        const CeedScalar *from = arena_[output_arrays_[o]] + static_cast<std::size_t>(d) * block.stride;
-        for (CeedInt p = 0; p < block.num_points; p++) to[p * of_point + column * num_out + row] = from[p];
+        const CeedScalar *from = arena_[output_arrays_[o]] + static_cast<std::size_t>(d) * block.stride();
+        for (CeedInt p = 0; p < block.num_points(); p++) to[p * of_point + column * num_out + row] = from[p];
       });
     });
-    to += block.num_points * of_point;
+    to += block.num_points() * of_point;
   });
   context.release();
   assembled.release();

@@ -11,6 +11,7 @@
 #include "block_map.hpp"
 #include "fields.hpp"
 #include "point_basis.hpp"
+#include "point_block.hpp"
 
 namespace hg::host {
 
@@ -54,33 +55,26 @@ class PointOperator {
     CeedInt num_comp;
     bool is_active;
   };
-  /// The points of a block of elements.
-  struct Block {
-    CeedInt first, num_elem;
-    CeedInt num_points;  ///< of all its elements
-    CeedInt stride;      ///< the same, up to a multiple of the QFunction's vector length
-  };
-
   PointOperator(const Kernels &kernels, const CeedProgram &program, std::vector<PointBasis> bases);
   Side make_side(const Kernels &kernels, const CeedProgramSide &side) const;
   int add_values(CeedInt size);
   bool add_nodes(Side &side);
   void place_inputs(const CeedProgram &program);
   void place_outputs(const CeedProgram &program);
-  Block block(CeedInt first, CeedInt num_elem) const;
-  void call(const CeedProgram &program, const Block &block, void *context);
-  CeedInt num_points(CeedInt e) const { return points_->offsets[e + 1] - points_->offsets[e]; }
-  const CeedInt *places(const CeedElementMap &map, CeedInt e) const { return map.offsets + map.offsets[e]; }
+  PointBlock block(CeedInt first, CeedInt num_elem, bool may_lie_across) const;
+  void call(const CeedProgram &program, const PointBlock &block, void *context);
+  template <typename Kernel>
+  void for_points(const PointBlock &block, const PointBasis &basis, Ahead &ahead, Kernel &&kernel) const;
   const PointBasis &basis(CeedInt space) const { return bases_[basis_of_space_[space]]; }
-  PointEvaluation evaluation(const Block &block, const PointBasis &basis, Ahead &ahead) const;
-  Ahead ask_for(const Block &block, const CeedElementMap &map, const CeedScalar *l) const;
-  void read(const Block &block, const CeedScalar *x_ref, const std::vector<const CeedScalar *> &sources);
-  void write(const Block &block, const std::vector<const CeedScalar *> &sources,
+  Ahead ask_for(const PointBlock &block, const CeedElementMap &map, const CeedScalar *l) const;
+  void read(const PointBlock &block, const CeedScalar *x_ref, const std::vector<const CeedScalar *> &sources);
+  void write(const PointBlock &block, const std::vector<const CeedScalar *> &sources,
              const std::vector<CeedScalar *> &sinks);
-  void pad(const Block &block, CeedInt size, CeedScalar *values) const;
+  void pad(const PointBlock &block, CeedInt size, CeedScalar *values) const;
 
   const Kernels *kernels_;
   CeedInt W_, vec_length_ = 1;
+  bool is_exact_ = false;  ///< the QFunction may count its points
   CeedSize points_epoch_;
   CeedQFunctionUser function_ = nullptr;
   const CeedElementMap *points_ = nullptr;
@@ -97,6 +91,7 @@ class PointOperator {
   CeedInt largest_source_ = -1;  ///< of those at points
   int x_ref_ = -1, coefficients_ = -1, sums_ = -1, work_ = -1;
   Arena arena_;
+  std::vector<CeedInt> places_;  ///< of a block's points
   std::vector<const CeedScalar *> in_;
   std::vector<CeedScalar *> out_;
 };

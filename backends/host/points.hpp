@@ -3,6 +3,7 @@
 /// whose values come by recurrence.
 #pragma once
 
+#include "across.hpp"
 #include "ahead.hpp"
 #include "kernels.hpp"
 #include "pack.hpp"
@@ -43,8 +44,19 @@ struct PointTable {
   }
 };
 
-/// A function, given by its coefficients c, and its derivatives at W points. `lanes`: elements side by side in a block,
-/// W or 1, numbers between the coefficients of one.
+/// Coefficients are those of one element, `lanes` numbers apart (elements side by side in a block: W, or 1), or each
+/// point has its own, W of them next to each other.
+inline constexpr int each_its_own = 0;
+template <int lanes>
+[[gnu::always_inline]] inline Pack coefficient(const CeedScalar *c) {
+  if constexpr (lanes == each_its_own) {
+    return load(c);
+  } else {
+    return broadcast(*c);
+  }
+}
+
+/// A function, given by its coefficients c, and its derivatives at W points.
 ///   v = Σ c_(k2,k1,k0) T_k2(z) T_k1(y) T_k0(x),   x, y, z its derivatives
 /// Floor, multiplications with additions: 2 K^3 + 3 K^2 + 4 K with derivatives, K^3 + K^2 + K without.
 template <bool with_derivatives>
@@ -59,9 +71,9 @@ struct PointValues {
       for (CeedInt k1 = 0; k1 < K1; k1++) {
         Pack row{}, row_x{};
 #pragma GCC unroll 16
-        for (CeedInt k0 = 0; k0 < K; k0++, c += lanes) {
-          row = fma(*c, table.T[0][k0], row);
-          if constexpr (with_derivatives) row_x = fma(*c, table.dT[0][k0], row_x);
+        for (CeedInt k0 = 0; k0 < K; k0++, c += lanes == each_its_own ? W : lanes) {
+          row = fma(coefficient<lanes>(c), table.T[0][k0], row);
+          if constexpr (with_derivatives) row_x = fma(coefficient<lanes>(c), table.dT[0][k0], row_x);
         }
         plane = fma(row, table.T[1][k1], plane);
         if constexpr (with_derivatives) {
@@ -79,12 +91,12 @@ struct PointValues {
   }
 };
 
-/// All components at all points of an element.
+/// All components at all points.
 template <int lanes, int fixed_K, bool with_derivatives>
 void evaluate_points(const PointEvaluation &e, const CeedScalar *coefficients, CeedScalar *values,
                      CeedScalar *derivatives) {
   const CeedInt K = fixed_K > 0 ? fixed_K : e.K, K1 = e.dim > 1 ? K : 1, K2 = e.dim > 2 ? K : 1;
-  const CeedSize of_component = static_cast<CeedSize>(K) * K1 * K2 * lanes;
+  const CeedSize of_component = static_cast<CeedSize>(K) * K1 * K2 * (lanes == each_its_own ? W : lanes);
   PointTable table;
   for (CeedInt first = 0; first < e.num_points; first += W) {
     const CeedInt n = e.num_points - first;
@@ -187,6 +199,7 @@ void integrate_points(const PointEvaluation &e, const CeedScalar *values, const 
                       CeedScalar *sums, CeedScalar *coefficients) {
   const CeedInt K = fixed_K > 0 ? fixed_K : e.K;
   const CeedInt num_coefficients = K * (e.dim > 1 ? K : 1) * (e.dim > 2 ? K : 1) * e.num_comp;
+  if constexpr (lanes == each_its_own) sums = coefficients;
   for (CeedInt k = 0; k < num_coefficients; k++) store(sums + k * W, Pack{});
   PointTable table[2];
   const auto fill = [&](int i, CeedInt first) __attribute__((always_inline)) {
@@ -199,10 +212,11 @@ void integrate_points(const PointEvaluation &e, const CeedScalar *values, const 
     fill(1, first + W);
     integrate_packs<fixed_K, with_derivatives, 2>(e, table, first, values, derivatives, sums);
   }
-  if (first >= e.num_points) return reduce<lanes>(sums, num_coefficients, coefficients);
-  fill(0, first);
-  integrate_packs<fixed_K, with_derivatives, 1>(e, table, first, values, derivatives, sums);
-  reduce<lanes>(sums, num_coefficients, coefficients);
+  if (first < e.num_points) {
+    fill(0, first);
+    integrate_packs<fixed_K, with_derivatives, 1>(e, table, first, values, derivatives, sums);
+  }
+  if constexpr (lanes != each_its_own) reduce<lanes>(sums, num_coefficients, coefficients);
 }
 
 /// Kernels for K = 2 ... 9, and at 0 for any K.
@@ -226,13 +240,19 @@ template <int lanes>
 inline constexpr PointTables<lanes> point_tables;
 
 template <int lanes>
-EvaluatePoints point_evaluation(CeedInt K, bool with_derivatives) {
+EvaluatePoints point_evaluation(CeedInt K, bool with_derivatives, bool is_across) {
   if (K > most_coefficients) return nullptr;
+  if constexpr (lanes == W) {
+    if (is_across) return point_evaluation<each_its_own>(K, with_derivatives, false);
+  }
   return point_tables<lanes>.evaluate[K >= 2 && K <= largest_fixed_K ? K : 0][with_derivatives];
 }
 template <int lanes>
-IntegratePoints point_integration(CeedInt K, bool with_derivatives) {
+IntegratePoints point_integration(CeedInt K, bool with_derivatives, bool is_across) {
   if (K > most_coefficients) return nullptr;
+  if constexpr (lanes == W) {
+    if (is_across) return point_integration<each_its_own>(K, with_derivatives, false);
+  }
   return point_tables<lanes>.integrate[K >= 2 && K <= largest_fixed_K ? K : 0][with_derivatives];
 }
 

@@ -66,7 +66,7 @@ class List {
   void gather(CeedInt degree, CeedInt num_comp);
   void scatter_add(CeedInt degree, CeedInt num_comp);
   void rows(CeedInt count);
-  void points(CeedInt K, bool with_derivatives, CeedInt num_points, CeedInt num_comp);
+  void points(CeedInt K, bool with_derivatives, CeedInt num_points, CeedInt num_comp, bool is_across = false);
   void point_vectors(CeedInt num_points, CeedInt num_comp);
 
   std::vector<Case> take() { return std::move(cases_); }
@@ -179,14 +179,16 @@ void List::rows(CeedInt count) {
 }
 
 /// Floor of a pack of points: 2 K^3 + 3 K^2 + 4 K multiplications with additions with derivatives, K^3 + K^2 + K
-/// without, for each component.
-void List::points(CeedInt K, bool with_derivatives, CeedInt num_points, CeedInt num_comp) {
-  const CeedInt width = kernels_.width, num_coefficients = K * K * K * num_comp;
+/// without, for each component. Across: as many points in each element of a block.
+void List::points(CeedInt K, bool with_derivatives, CeedInt points_each, CeedInt num_comp, bool is_across) {
+  const CeedInt width = kernels_.width, num_elem = is_across ? width : 1;
+  const CeedInt num_points = points_each * num_elem, num_coefficients = K * K * K * num_comp;
   const CeedSize stride = (num_points + max_width - 1) / max_width * max_width;
   const double packs = num_points / W_, fields = num_comp * (with_derivatives ? 3.0 : 1.0);
   const double fmas = with_derivatives ? (2.0 * K + 3) * K * K + 4 * K : (K + 1.0) * K * K + K;
-  const double bytes = sizeof(CeedScalar) * (num_points * (3 + fields) + num_coefficients);
-  const std::string name = joined(K, with_derivatives ? "/derivatives/" : "/values/", num_points, "x", num_comp);
+  const double bytes = sizeof(CeedScalar) * (num_points * (3 + fields) + num_coefficients * num_elem);
+  const std::string name = joined(K, with_derivatives ? "/derivatives/" : "/values/", points_each, "x", num_comp,
+                                  is_across ? "/across" : "");
   const auto prepare = [=](auto call) {
     return [=, x = numbers(3 * stride), at_points = numbers(stride * static_cast<CeedSize>(fields)),
             coefficients = numbers(static_cast<CeedSize>(num_coefficients) * width), ahead = host::Ahead()]() mutable {
@@ -197,16 +199,17 @@ void List::points(CeedInt K, bool with_derivatives, CeedInt num_points, CeedInt 
   };
   Work work{.fmas = packs * num_comp * fmas, .loads = 3 * packs, .stores = fields * packs, .bytes = bytes};
   add(joined("points/evaluate/", name), work,
-      [=, kernel = kernels_.point_evaluation(K, with_derivatives)] { return prepare(kernel); });
+      [=, kernel = kernels_.point_evaluation(K, with_derivatives, is_across)] { return prepare(kernel); });
   std::swap(work.loads, work.stores);
   work.loads += work.stores;
   work.stores = 0;
-  add(joined("points/integrate/", name), work, [=, kernel = kernels_.point_integration(K, with_derivatives)] {
-    return prepare(
-        [=, sums = numbers(static_cast<CeedSize>(num_coefficients) * max_width)](
-            const PointEvaluation &evaluation, CeedScalar *coefficients, const CeedScalar *values,
-            const CeedScalar *derivatives) { kernel(evaluation, values, derivatives, sums.get(), coefficients); });
-  });
+  add(joined("points/integrate/", name), work,
+      [=, kernel = kernels_.point_integration(K, with_derivatives, is_across)] {
+        return prepare(
+            [=, sums = numbers(static_cast<CeedSize>(num_coefficients) * max_width)](
+                const PointEvaluation &evaluation, CeedScalar *coefficients, const CeedScalar *values,
+                const CeedScalar *derivatives) { kernel(evaluation, values, derivatives, sums.get(), coefficients); });
+      });
 }
 
 /// Floor: a point's numbers are loaded four at a time, and on the way back loaded and stored one by one.
@@ -284,6 +287,7 @@ std::vector<Case> cases(const InstructionSet &set) {
     for (const CeedInt K : {2, 3, 5}) {
       for (const bool with_derivatives : {false, true}) {
         for (const CeedInt num_points : {8, 27, 64}) list.points(K, with_derivatives, num_points, 1);
+        if (kernels == set.blocked) list.points(K, with_derivatives, 8, 1, true);
       }
     }
     list.points(3, true, 27, 3);

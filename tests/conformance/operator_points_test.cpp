@@ -226,14 +226,54 @@ TEST_P(PointsTest, WorksWithOnePoint) {
   expect_close(apply_to(ceed, op.op, u), want, tolerance(4), "action");
 }
 
+/// An operator is the sum of those of its elements, whatever the numbers of points side by side: even and uneven ones,
+/// elements without points between them, and more elements than a block has.
+TEST_P(PointsTest, AddsUpOverElements) {
+  Random random(27);
+  const Box mesh(2, 5, 3);
+  const auto counts_by = [&](auto count) {
+    std::vector<CeedInt> counts;
+    for (CeedInt e = 0; e < mesh.num_elem; e++) counts.push_back(count(e));
+    return counts;
+  };
+  const std::vector<std::vector<CeedInt>> all = {
+      counts_by([](CeedInt) { return 1; }),
+      counts_by([](CeedInt) { return 8; }),
+      counts_by([](CeedInt) { return 27; }),
+      counts_by([](CeedInt e) { return 6 + e % 3; }),
+      counts_by([](CeedInt e) { return e % 5 == 0 ? 0 : 9 + e % 2; }),
+      counts_by([](CeedInt e) { return e % 7 == 3 ? 70 : e % 4; }),
+  };
+  const CeedInt num_comp = 2;
+  const CeedSize n = static_cast<CeedSize>(mesh.num_nodes) * num_comp;
+  MassAtPoints moving(ceed, mesh, num_comp, 3, counts_by([](CeedInt) { return 0; }), {}, {});
+  for (const auto &counts : all) {
+    SCOPED_TRACE("counts " + std::to_string(counts[0]) + ", " + std::to_string(counts[1]) + ", ...");
+    const CeedInt total = std::accumulate(counts.begin(), counts.end(), 0);
+    const Values x = random.reals(2 * total), q = random.reals(total), u = random.reals(n);
+    Values sum(n, 0);
+    for (CeedInt e = 0, first = 0; e < mesh.num_elem; first += counts[e++]) {
+      std::vector<CeedInt> alone(counts.size(), 0);
+      alone[e] = counts[e];
+      const auto part = [&](const Values &values, CeedInt comp) {
+        return Values(values.begin() + first * comp, values.begin() + (first + counts[e]) * comp);
+      };
+      moving.move_to(alone, part(x, 2), part(q, 1));
+      const Values of_element = apply_to(ceed, moving.op, u);
+      for (CeedSize i = 0; i < n; i++) sum[i] += of_element[i];
+    }
+    moving.move_to(counts, x, q);
+    expect_close(apply_to(ceed, moving.op, u), sum, tolerance(400), "action");
+  }
+}
+
 /// The state of points, NONE to NONE, with a gradient from the mesh: as a material is updated. The passive output may
 /// be read by the next operator.
-TEST_P(PointsTest, UpdatesTheStateOfPoints) {
+void expect_updated_state(Ceed ceed, CeedInt num_elem_1d, const std::vector<CeedInt> &counts) {
   Random random(25);
   const CeedInt dim = 2;
-  const Box mesh(dim, 2, 3);
-  const std::vector<CeedInt> counts = {3, 0, 6, 1};
-  const CeedInt total = 10;
+  const Box mesh(dim, num_elem_1d, 3);
+  const CeedInt total = std::accumulate(counts.begin(), counts.end(), 0);
   const Values x = random.reals(total * dim), state = random.reals(total * 4);
   const Restriction rstr_u = mesh.restriction(ceed, dim), rstr_x = at_points(ceed, counts, dim);
   const Restriction rstr_state = at_points(ceed, counts, 4), rstr_trace = at_points(ceed, counts, 1);
@@ -266,7 +306,7 @@ TEST_P(PointsTest, UpdatesTheStateOfPoints) {
       }
     }
   }
-  const CeedScalar half_h = 0.25;
+  const CeedScalar half_h = 0.5 / num_elem_1d;
   const Vector in = make_vector(ceed, u);
   for (int repeat = 0; repeat < 2; repeat++) {
     ok(CeedOperatorApply(op, in, trace, CEED_REQUEST_IMMEDIATE));
@@ -288,6 +328,12 @@ TEST_P(PointsTest, UpdatesTheStateOfPoints) {
     expect_close(values_of(trace), want_trace, tolerance(20), "trace");
     expect_close(values_of(old_state), state, 0, "old state");
   }
+}
+
+TEST_P(PointsTest, UpdatesTheStateOfPoints) {
+  expect_updated_state(ceed, 2, {3, 0, 6, 1});
+  expect_updated_state(ceed, 3, {7, 8, 8, 7, 0, 8, 6, 8, 5});
+  expect_updated_state(ceed, 3, {31, 0, 0, 2, 40, 1, 0, 3, 5});
 }
 
 /// Diagonal and matrix against unit vectors, for an operator of several components and modes.

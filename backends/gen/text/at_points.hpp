@@ -1,38 +1,143 @@
 /// @file
-/// What the printed text of an operator at points is made of: up to two packs of points of one element.
+/// What the printed text of an operator at points is made of: up to two packs of points, of one element or of W.
 #pragma once
 
 #include "in_blocks.hpp"
 
 namespace hg::host::HG_HOST_ISA {
 
-/// n points of an element, the first of which is the `first`-th of all that `side` lists; arrays have `stride` numbers
-/// for each component, of which those beyond the n-th repeat it.
-struct SomePoints {
-  CeedInt first, n, stride;
-};
-
 /// Index of the first point of element e in the list of a restriction at points.
 [[gnu::always_inline]] inline CeedInt first_point(const Side &side, CeedInt e) {
   return side.offsets[e];
 }
 
+/// The element to which a point in that list belongs.
+inline CeedInt element_of(const Side &side, CeedInt num_elem, CeedInt place) {
+  CeedInt e = 0;
+  while (e + 1 < num_elem && side.offsets[e + 1] <= place) e++;
+  return e;
+}
+
+/// The points of a block of elements.
+struct BlockPoints {
+  Mask count{};        ///< of each lane
+  CeedInt element[W];  ///< one that has points, for lanes that have none
+  CeedInt last[W];     ///< point of that element
+  CeedInt total, most = 0, least;
+  bool is_across;  ///< whether they are taken across the elements
+
+  [[gnu::always_inline]] BlockPoints(const Side &side, CeedInt first, CeedInt num_elem)
+      : total(first_point(side, first + num_elem) - first_point(side, first)) {
+    CeedInt counts[W], any = first;
+    for (CeedInt lane = 0; lane < W; lane++) {
+      const CeedInt e = first + lane;
+      counts[lane] = lane < num_elem ? first_point(side, e + 1) - first_point(side, e) : 0;
+      if (counts[lane] > 0) any = e;
+      count[lane] = counts[lane];
+    }
+    is_across = pays_across(counts, W);
+    least = counts[0];
+    for (CeedInt lane = 0; lane < W; lane++) {
+      const CeedInt n = counts[lane];
+      if (n > most) most = n;
+      if (n < least) least = n;
+      element[lane] = n > 0 ? first + lane : any;
+      last[lane] = n > 0 ? n - 1 : 0;
+    }
+  }
+};
+
+/// The points [first, first + n) of element e, of which arrays have `stride` numbers for each component; those beyond
+/// the n-th repeat it. What belongs to the element is in one lane of a block.
+struct Along {
+  static constexpr bool is_across = false;
+  CeedInt e, lane, first, n, stride;
+
+  [[gnu::always_inline]] const CeedInt *places(const Side &side) const {
+    return side.offsets + first_point(side, e) + first;
+  }
+};
+
+/// The points k, and k + 1 where `stride` is 2 W, of the elements of a block, one in each lane. Where an element does
+/// not have so many the last one is repeated.
+struct Across {
+  static constexpr bool is_across = true;
+  const BlockPoints &block;
+  CeedInt k, stride;
+
+  [[gnu::always_inline]] bool are_there() const { return k * W + stride <= block.least * W; }
+  [[gnu::always_inline]] CeedInt place(const Side &side, CeedInt i, CeedInt lane) const {
+    const CeedInt last = block.last[lane], p = k + i < last ? k + i : last;
+    return side.offsets[first_point(side, block.element[lane]) + p];
+  }
+};
+
+/// What num_comp numbers at each point from those of element e on will be read from, as much for each pack as a pack
+/// holds. It is taken to lie together, as it does where points are sorted by element; elsewhere the lines that are
+/// asked for are not the right ones.
+template <int num_comp>
+[[gnu::always_inline]] inline Ahead points_ahead(const Side &side, const CeedScalar *l, CeedInt e, CeedInt end) {
+  constexpr CeedInt bytes = num_comp * W * sizeof(CeedScalar);
+  if (e >= end || first_point(side, e) == first_point(side, end)) return {};
+  return {reinterpret_cast<uintptr_t>(l + static_cast<CeedSize>(side.offsets[first_point(side, e)]) * num_comp),
+          (bytes + Ahead::line - 1) / Ahead::line};
+}
+template <int packs>
+[[gnu::always_inline]] inline void ask(Ahead &ahead) {
+  for (int i = 0; i < packs; i++) ask(ahead);
+}
+
 /// values_(c,p) = component c at point p
 template <int num_comp>
-[[gnu::always_inline]] inline void read_points(const Side &side, const CeedScalar *l, const SomePoints &points,
+[[gnu::always_inline]] inline void read_points(const Side &side, const CeedScalar *l, const Along &points,
                                                CeedScalar *values) {
-  gather_points(points.n, num_comp, side.offsets + points.first, l, side.l_size, points.stride, values);
+  gather_points(points.n, num_comp, points.places(side), l, side.l_size, points.stride, values);
   for (CeedInt c = 0; c < num_comp && points.n < points.stride; c++) {
     CeedScalar *component = values + c * points.stride;
     for (CeedInt p = points.n; p < points.stride; p++) component[p] = component[points.n - 1];
   }
 }
+template <int num_comp>
+[[gnu::always_inline]] inline void read_points(const Side &side, const CeedScalar *l, const Across &points,
+                                               CeedScalar *values) {
+  CeedInt places[2 * W];
+  for (CeedInt i = 0; i * W < points.stride; i++) {
+    for (CeedInt lane = 0; lane < W; lane++) places[i * W + lane] = points.place(side, i, lane);
+  }
+  gather_points(points.stride, num_comp, places, l, side.l_size, points.stride, values);
+}
 
 /// Component c at point p += values_(c,p)
 template <int num_comp>
-[[gnu::always_inline]] inline void add_points(const Side &side, const SomePoints &points, const CeedScalar *values,
+[[gnu::always_inline]] inline void add_points(const Side &side, const Along &points, const CeedScalar *values,
                                               CeedScalar *l) {
-  scatter_add_points(points.n, num_comp, side.offsets + points.first, values, points.stride, l);
+  scatter_add_points(points.n, num_comp, points.places(side), values, points.stride, l);
+}
+template <int num_comp>
+[[gnu::always_inline]] inline void add_points(const Side &side, const Across &points, const CeedScalar *values,
+                                              CeedScalar *l) {
+  for (CeedInt i = 0; i * W < points.stride; i++) {
+    for (CeedInt lane = 0; lane < W; lane++) {
+      if (points.k + i >= points.block.count[lane]) continue;
+      const CeedInt place = points.place(side, i, lane);
+      scatter_add_points(1, num_comp, &place, values + i * W + lane, points.stride, l);
+    }
+  }
+}
+
+/// What is to be integrated counts at points that are there, and is 0 at others. (Kernels see to the end of Along.)
+template <int num_comp>
+[[gnu::always_inline]] inline void drop_repeated(const Along &, CeedScalar *) {}
+template <int num_comp>
+[[gnu::always_inline]] inline void drop_repeated(const Across &points, CeedScalar *values) {
+  if (points.are_there()) return;
+  for (CeedInt i = 0; i * W < points.stride; i++) {
+    const Mask is_there = points.block.count > static_cast<int64_t>(points.k + i);
+    for (CeedInt c = 0; c < num_comp; c++) {
+      CeedScalar *at = values + c * points.stride + i * W;
+      store_anywhere(at, is_there ? load_anywhere(at) : Pack{});
+    }
+  }
 }
 
 template <int packs>
@@ -43,16 +148,18 @@ template <int packs>
 }
 
 /// What num_comp functions of K coefficients in each direction are at the points, and their derivatives; either may be
-/// NULL. `coefficients`: of the first component; those of the element's lane lie W apart.
-template <int dim, int K, int num_comp, bool with_derivatives, int packs>
+/// NULL. `coefficients`: those of a block of elements.
+template <int dim, int K, int num_comp, bool with_derivatives, int packs, typename Points>
 [[gnu::always_inline]] inline void evaluate_at(const PointTable (&table)[packs], const CeedScalar *coefficients,
-                                               const SomePoints &points, CeedScalar *values, CeedScalar *derivatives) {
+                                               const Points &points, CeedScalar *values, CeedScalar *derivatives) {
   constexpr int K1 = dim > 1 ? K : 1, K2 = dim > 2 ? K : 1;
+  if constexpr (!Points::is_across) coefficients += points.lane;
   for (int c = 0; c < num_comp; c++) {
 #pragma GCC unroll 2
     for (int i = 0; i < packs; i++) {
       PointValues<with_derivatives> at;
-      at.template evaluate<W>(table[i], K, K1, K2, coefficients + c * K * K1 * K2 * W);
+      at.template evaluate<Points::is_across ? each_its_own : W>(table[i], K, K1, K2,
+                                                                 coefficients + c * K * K1 * K2 * W);
       const CeedInt n = points.stride - i * W;
       if (values != nullptr) store_some(values + c * points.stride + i * W, at.v, n);
       if constexpr (with_derivatives) {
@@ -65,13 +172,17 @@ template <int dim, int K, int num_comp, bool with_derivatives, int packs>
   }
 }
 
-/// The transpose: adds to `sums`, W numbers for each coefficient.
-template <int dim, int K, int num_comp, bool with_derivatives, int packs>
-[[gnu::always_inline]] inline void integrate_at(const PointTable (&table)[packs], const SomePoints &points,
+/// The transpose: adds to W numbers for each coefficient, those of the elements across them, or, along one element,
+/// such as are to be reduced.
+template <int dim, int K, int num_comp, bool with_derivatives, int packs, typename Points>
+[[gnu::always_inline]] inline void integrate_at(const PointTable (&table)[packs], const Points &points,
                                                 const CeedScalar *values, const CeedScalar *derivatives,
-                                                CeedScalar *sums) {
-  const PointEvaluation e{dim, K, num_comp, points.n, nullptr, points.stride, nullptr};
-  integrate_packs<K, with_derivatives, packs>(e, table, 0, values, derivatives, sums);
+                                                CeedScalar *to_reduce, CeedScalar *coefficients) {
+  CeedInt n = points.stride;
+  if constexpr (!Points::is_across) n = points.n;
+  const PointEvaluation e{dim, K, num_comp, n, nullptr, points.stride, nullptr};
+  integrate_packs<K, with_derivatives, packs>(e, table, 0, values, derivatives,
+                                              Points::is_across ? coefficients : to_reduce);
 }
 
 }  // namespace hg::host::HG_HOST_ISA
