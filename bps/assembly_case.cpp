@@ -1,20 +1,16 @@
 #include "assembly_case.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "clock.hpp"
 #include "library.hpp"
 #include "record.hpp"
 
 namespace hg::bps {
 
 namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 CeedSize num_entries(Ceed ceed, CeedOperator op) {
   CeedSize count = 0;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "clock.hpp"
 #include "qfunctions/bps/manufactured.h"
 #include "qfunctions/bps/mass.h"
 #include "qfunctions/bps/poisson.h"
@@ -36,13 +37,17 @@ void Bakeoff::build_mesh(const Cells &cells) {
   num_elem_ = cells.num_elem;
   num_dofs_ = cells.num_dofs;
   const CeedInt P = degree_ + 1, Q = problem_.q_1d(degree_), num_comp = problem_.num_comp;
+  double start = now();
   check(ceed_, CeedElemRestrictionCreate(ceed_, num_elem_, P * P * P, num_comp, 1, num_dofs_, CEED_MEM_HOST,
                                          CEED_COPY_VALUES, cells.dof_offsets.data(), solution_restriction_.out()));
+  seconds_created_ += now() - start;
   check(ceed_, CeedElemRestrictionCreate(ceed_, num_elem_, 8, 3, 1, static_cast<CeedSize>(cells.coordinates.size()),
                                          CEED_MEM_HOST, CEED_COPY_VALUES, cells.vertex_offsets.data(),
                                          mesh_restriction_.out()));
   coordinates_ = make_vector(ceed_, cells.coordinates);
+  start = now();
   check(ceed_, CeedBasisCreateTensorH1Lagrange(ceed_, 3, num_comp, P, Q, problem_.quad_mode(), solution_basis_.out()));
+  seconds_created_ += now() - start;
   check(ceed_, CeedBasisCreateTensorH1Lagrange(ceed_, 3, 3, 2, Q, problem_.quad_mode(), mesh_basis_.out()));
 }
 
@@ -92,7 +97,9 @@ void Bakeoff::build_operator() {
       is_poisson ? (is_scalar ? BPPoissonApply : BPPoissonApply3) : (is_scalar ? BPMassApply : BPMassApply3);
   const char *source = is_poisson ? (is_scalar ? BPPoissonApply_loc : BPPoissonApply3_loc)
                                   : (is_scalar ? BPMassApply_loc : BPMassApply3_loc);
+  const double start = now();
   operator_ = make_operator(function, source, false, {u, data}, v, at_points_);
+  seconds_created_ += now() - start;
 }
 
 Bakeoff::Field Bakeoff::weight_field() const {

@@ -54,6 +54,9 @@ class Bakeoff {
   /// Quadrature points, or material points.
   CeedSize num_points() const { return num_points_; }
   Work work() const;
+  /// Seconds that the restriction and basis of the solution and the operator itself took to create. The lowering of the
+  /// operator, and what is compiled for it, count for its first application.
+  double seconds_created() const { return seconds_created_; }
 
  private:
   /// A restriction and basis as one argument, to name the fields of an operator in one line each.
@@ -80,6 +83,7 @@ class Bakeoff {
   CeedInt num_elem_ = 0;
   CeedSize num_dofs_ = 0, num_points_ = 0;
   bool at_points_ = false;
+  double seconds_created_ = 0;
 
   Restriction solution_restriction_, mesh_restriction_, stored_restriction_, points_restriction_, weights_restriction_;
   Basis solution_basis_, mesh_basis_;

@@ -1,7 +1,8 @@
 #include "cg.hpp"
 
 #include <array>
-#include <chrono>
+
+#include "clock.hpp"
 
 namespace hg::bps {
 
@@ -58,7 +59,7 @@ CgResult conjugate_gradients(Ceed ceed, const Bakeoff &A, CeedVector mask, CeedV
   double r_norm = b_norm;
 
   CgResult result;
-  const auto start = std::chrono::steady_clock::now();
+  const double start = now();
   while (result.iterations < options.max_iterations && r_norm > options.relative_tolerance * b_norm) {
     A.apply(p, Ap);
     if (mask) check(ceed, CeedVectorPointwiseMult(Ap, Ap, mask));
@@ -73,7 +74,7 @@ CgResult conjugate_gradients(Ceed ceed, const Bakeoff &A, CeedVector mask, CeedV
     r_norm = new_norm;
     result.iterations++;
   }
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = now() - start;
   result.relative_residual = b_norm > 0 ? r_norm / b_norm : 0;
   result.converged = r_norm <= options.relative_tolerance * b_norm;
   return result;

@@ -69,7 +69,8 @@ ParsedOptions parse_options(int argc, const char *const *argv) {
   std::vector<std::string> resources{"/cpu/self"}, problems{"bp3"};
   std::string degree = "1-4", dofs = "1e5", points, placement, json, dot = "auto";
   KernelOptions options;
-  app.add_option("--ceed", resources, "backend resource; repeat for several, `all` for every one that works here, but checkers")
+  app.add_option("--ceed", resources,
+                 "backend resource; repeat for several, `all` for every one that works here, but checkers")
       ->capture_default_str();
   app.add_option("--problem", problems, "bp1 ... bp6 or all; several by commas or by repeating")->capture_default_str();
   app.add_option("--degree", degree, "polynomial degrees, such as 1,2,3 or 1-8")->capture_default_str();

@@ -38,6 +38,7 @@ void to_json(nlohmann::ordered_json &json, const Record &r) {
       {"placement", nullable(r.placement)},
       {"repetitions", r.repetitions},
       {"seconds_per_apply", {{"best", r.seconds_best}, {"median", r.seconds_median}}},
+      {"seconds_setup", {{"create", r.seconds_created}, {"first_apply", r.seconds_first}}},
       {"mdofs_per_s", r.mdofs_per_s()},
       {"mpoints_per_s", r.mpoints_per_s()},
       {"gb_per_s", r.gb_per_s()},

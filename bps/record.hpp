@@ -24,6 +24,8 @@ struct Record {
   std::optional<std::string> placement;      ///< of an operator at points
   int repetitions = 0;
   double seconds_best = 0, seconds_median = 0;  ///< of one application of the operator
+  double seconds_created = 0;                   ///< restriction, basis and operator
+  double seconds_first = 0;                     ///< first application, with all that is made for it
   double bytes = 0, flops = 0;                  ///< compulsory bytes and formula flops of one application
   std::optional<CeedOperatorMemory> memory;     ///< where the library counts it
   double compulsory_memory = 0;                 ///< bytes that the operator must hold

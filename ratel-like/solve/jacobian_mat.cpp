@@ -7,6 +7,7 @@
 #include "mesh/lend.hpp"
 #include "options/error.hpp"
 #include "options/options.hpp"
+#include "solve/stages.hpp"
 
 namespace hg {
 
@@ -104,7 +105,10 @@ void JacobianMat::pattern() {
 void JacobianMat::update(double damping) {
   shift_ = 0;
   if (type_ == Type::aij) {
-    ceed_check(CeedOperatorLinearAssemble(op_, entries_));
+    {
+      const OperatorScope scope(OperatorWork::matrix);
+      ceed_check(CeedOperatorLinearAssemble(op_, entries_));
+    }
     CeedSize count;
     const CeedScalar *values;
     ceed_check(CeedVectorGetLength(entries_, &count));
@@ -140,6 +144,7 @@ void JacobianMat::multiply(Vec x, Vec y) {
   petsc_check(DMGlobalToLocal(mesh_.dm, x, INSERT_VALUES, local_in_));
   {
     Lend in(local_in_, ceed_in_, Access::read), out(local_out_, ceed_out_, Access::write);
+    const OperatorScope scope(OperatorWork::jacobian);
     ceed_check(CeedOperatorApply(op_, ceed_in_, ceed_out_, CEED_REQUEST_IMMEDIATE));
   }
   petsc_check(VecZeroEntries(y));
@@ -158,6 +163,7 @@ void JacobianMat::multiply(Vec x, Vec y) {
 void JacobianMat::diagonal(Vec d) {
   {
     Lend out(local_out_, ceed_out_, Access::write);
+    const OperatorScope scope(OperatorWork::diagonal);
     ceed_check(CeedOperatorLinearAssembleDiagonal(op_, ceed_out_, CEED_REQUEST_IMMEDIATE));
   }
   petsc_check(VecZeroEntries(d));

@@ -18,6 +18,18 @@ PetscLogStage number(Stage stage) {
   return stages[static_cast<int>(stage)];
 }
 
+PetscLogEvent number(OperatorWork work) {
+  static const std::array<PetscLogEvent, 4> events = [] {
+    std::array<PetscLogEvent, 4> made{};
+    const char *names[] = {"OpResidual", "OpJacobian", "OpMatrix", "OpDiagonal"};
+    PetscClassId id = 0;
+    petsc_check(PetscClassIdRegister("Operators", &id));
+    for (int i = 0; i < 4; ++i) petsc_check(PetscLogEventRegister(names[i], id, &made[i]));
+    return made;
+  }();
+  return events[static_cast<int>(work)];
+}
+
 }  // namespace
 
 StageScope::StageScope(Stage stage) {
@@ -25,6 +37,13 @@ StageScope::StageScope(Stage stage) {
 }
 StageScope::~StageScope() {
   (void)PetscLogStagePop();
+}
+
+OperatorScope::OperatorScope(OperatorWork work) : event_(number(work)) {
+  petsc_check(PetscLogEventBegin(event_, nullptr, nullptr, nullptr, nullptr));
+}
+OperatorScope::~OperatorScope() {
+  (void)PetscLogEventEnd(event_, nullptr, nullptr, nullptr, nullptr);
 }
 
 }  // namespace hg

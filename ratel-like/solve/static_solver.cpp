@@ -6,6 +6,7 @@
 #include "mesh/lend.hpp"
 #include "options/error.hpp"
 #include "solve/slope_search.hpp"
+#include "solve/stages.hpp"
 
 namespace hg {
 
@@ -143,6 +144,7 @@ void StaticSolver::local_residual(Vec u) {
   to_local(u, local_u_);
   {
     Lend in(local_u_, ceed_u_, Access::read), out(local_r_, ceed_r_, Access::write);
+    const OperatorScope scope(OperatorWork::residual);
     ceed_check(CeedOperatorApply(operators_.residual(), ceed_u_, ceed_r_, CEED_REQUEST_IMMEDIATE));
   }
   petsc_check(VecAXPY(local_r_, -1., local_load_));

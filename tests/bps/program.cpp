@@ -27,7 +27,7 @@ void expect_record(const nlohmann::json &r) {
                                       "gflops_per_s", "cg_seconds",    "cg_mdofs_per_s", "compulsory_memory"};
   const std::set<std::string> nullable{"points_per_cell", "placement", "error", "error_h1"};
   const std::set<std::string> parts{"program", "restrictions", "bases", "vectors", "assembly", "backend"};
-  std::set<std::string> known{"seconds_per_apply", "cg_converged", "memory", "memory_ratio"};
+  std::set<std::string> known{"seconds_per_apply", "seconds_setup", "cg_converged", "memory", "memory_ratio"};
   for (const auto &names : {strings, integers, numbers, nullable}) known.insert(names.begin(), names.end());
   for (const auto &name : known) ASSERT_TRUE(r.contains(name)) << name;
   for (const auto &item : r.items()) EXPECT_TRUE(known.contains(item.key())) << item.key() << " is not in the schema";
@@ -54,6 +54,8 @@ void expect_record(const nlohmann::json &r) {
   const double best = r["seconds_per_apply"]["best"], median = r["seconds_per_apply"]["median"], dofs = r["dofs"];
   EXPECT_GT(best, 0);
   EXPECT_GE(median, best);
+  EXPECT_GT(r["seconds_setup"]["create"].get<double>(), 0);
+  EXPECT_GT(r["seconds_setup"]["first_apply"].get<double>(), 0);
   EXPECT_NEAR(r["mdofs_per_s"].get<double>(), dofs / best / 1e6, 1e-9 * dofs / best / 1e6);
   const double points = r["points"];
   EXPECT_NEAR(r["mpoints_per_s"].get<double>(), points / best / 1e6, 1e-9 * points / best / 1e6);
