@@ -119,7 +119,9 @@ void Operator::apply_add(const CeedProgram &program, CeedVector in, CeedVector o
     follow(program);
     return host::Operator::apply_add(program, in, out, mode);
   }
-  host::ProgramArrays arrays(program, in, out, mode);
+  host::ProgramArrays arrays(program, in, out, mode, program.at_points);
+  const auto sets = std::make_unique<bool[]>(program.num_sinks);
+  for (CeedInt t = 0; t < program.num_sinks; t++) sets[t] = arrays.is_set(t);
   host::ContextData context(program.qf);
   const auto sources = sides_of(program.sources, program.num_sources);
   const auto sinks = sides_of(program.sinks, program.num_sinks);
@@ -132,6 +134,7 @@ void Operator::apply_add(const CeedProgram &program, CeedVector in, CeedVector o
           .sinks = sinks.data(),
           .inputs = arrays.sources().data(),
           .outputs = arrays.sinks().data(),
+          .sets = sets.get(),
           .numbers = numbers_.data(),
           .work = work_.get(),
           .points = &points,

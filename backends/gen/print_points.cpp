@@ -44,6 +44,7 @@ class PointPrinter {
   /// `is_exact`: the QFunction is called for the points that there are and no others, but for those that fill up its
   /// vector length.
   Printed print(bool is_exact, CeedInt vec_length) {
+    print_function();
     to_.line("extern \"C\" __attribute__((visibility(\"default\"))) int hg_apply(Job *job) {{");
     declare();
     to_.line("Ahead ahead{{}}, ahead_x{{}};");
@@ -136,14 +137,14 @@ class PointPrinter {
 
   /// Where nothing belongs to elements the points of all lie along one.
   void print_list(bool is_exact, CeedInt vec_length) {
-    print_some_points();
+    print_some_points(is_exact);
     to_.line("const CeedInt start = first_point(*job->points, job->first);");
     to_.line("const CeedInt num_points = first_point(*job->points, job->end) - start;");
     print_along("job->first", "0", "element_of(*job->points, job->end, start + p)", is_exact, vec_length);
   }
 
   void print_blocks(bool is_exact, CeedInt vec_length) {
-    print_some_points();
+    print_some_points(is_exact);
     to_.line("for (CeedInt first = job->first; first < job->end; first += W) {{");
     to_.line("const CeedInt num_elem = job->end - first < W ? job->end - first : W;");
     to_.line("const BlockPoints block(*job->points, first, num_elem);");
@@ -227,8 +228,35 @@ class PointPrinter {
     to_.line("}}");
   }
 
+  /// The names of the QFunction's arrays, in order, each after `before` and its kind.
+  std::string fields(const char *before_in, const char *before_out) const {
+    std::string text;
+    for (CeedInt i = 0; i < program_.num_inputs; i++) text += fmt::format("{}in{}", before_in, i);
+    for (CeedInt o = 0; o < program_.num_outputs; o++)
+      text += fmt::format("{}out{}", *before_out ? before_out : before_in, o);
+    return text;
+  }
+  std::string list_of(const char *what, CeedInt count) const {
+    std::string text;
+    for (CeedInt i = 0; i < count; i++) text += fmt::format("{}{}{}", i > 0 ? ", " : "", what, i);
+    return count > 0 ? text : "nullptr";
+  }
+
+  /// The QFunction, with arrays that do not overlap. It is called from several places: compilers may take a large one
+  /// into one function instead of four, which is most of their time. fixed_Q > 0: Q.
+  void print_function() {
+    to_.line("template <int fixed_Q>");
+    to_.line("inline int function(void *context, CeedInt Q{}) {{",
+             fields(", const CeedScalar *__restrict ", ", CeedScalar *__restrict "));
+    to_.line("const CeedScalar *const in[] = {{{}}};", list_of("in", program_.num_inputs));
+    to_.line("CeedScalar *const out[] = {{{}}};", list_of("out", program_.num_outputs));
+    to_.line("return ::{}(context, fixed_Q > 0 ? fixed_Q : Q, in, out);", function_);
+    to_.line("}}");
+    to_.line("");
+  }
+
   /// All that is done with one or two packs of points.
-  void print_some_points() {
+  void print_some_points(bool is_exact) {
     to_.line("const auto some_points = [&](auto count, const auto &points) __attribute__((always_inline)) {{");
     to_.line("constexpr int packs = decltype(count)::value;");
     to_.line("const CeedInt stride = points.stride;");
@@ -243,15 +271,10 @@ class PointPrinter {
     }
     for (CeedInt i = 0; i < program_.num_inputs; i++) declare_input(i);
     for (const Evaluation &e : evaluations_) evaluate(e);
-    std::vector<std::string> in, out;
-    for (CeedInt i = 0; i < program_.num_inputs; i++) in.push_back(fmt::format("in{}", i));
     for (CeedInt o = 0; o < program_.num_outputs; o++) {
-      out.push_back(fmt::format("out{}", o));
       to_.line("alignas(64) CeedScalar out{}[({} * packs + 1) * W];", o, program_.outputs[o].size);
     }
-    to_.line("const CeedScalar *const in[] = {{{}}};", in.empty() ? "nullptr" : fmt::format("{}", fmt::join(in, ", ")));
-    to_.line("CeedScalar *const out[] = {{{}}};", out.empty() ? "nullptr" : fmt::format("{}", fmt::join(out, ", ")));
-    to_.line("const int code = ::{}(job->context, stride, in, out);", function_);
+    to_.line("const int code = function<{}>(job->context, stride{});", is_exact ? "0" : "packs * W", fields(", ", ""));
     to_.line("if (code != 0) return code;");
     for (const Evaluation &e : integrations_) integrate(e);
     for (CeedInt o = 0; o < program_.num_outputs; o++) write(o);
@@ -311,7 +334,8 @@ class PointPrinter {
   void write(CeedInt o) {
     const CeedProgramField &field = program_.outputs[o];
     if (field.eval_mode != CEED_EVAL_NONE) return;
-    to_.line("add_points<{0}>(job->sinks[{1}], points, out{2}, job->outputs[{1}]);", field.size, field.side, o);
+    to_.line("write_points<{0}>(job->sinks[{1}], points, out{2}, job->sets[{1}], job->outputs[{1}]);", field.size,
+             field.side, o);
   }
 
   void write_nodes(CeedInt t) {

@@ -98,12 +98,13 @@ class ProgramArrays {
   /// Those that are read for an assembly: passive sources, and the points.
   explicit ProgramArrays(const CeedProgram &program) { read(program, nullptr); }
   /// As CeedOperatorOps::apply_add() gets its vectors. Passive outputs that are written, not added to, begin with
-  /// zeros.
-  ProgramArrays(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
-    if (mode == CEED_APPLY_ADD_ACTIVE) {
-      for (CeedInt t = 0; t < program.num_sinks; t++) {
-        if (!program.sinks[t].is_active) chk(CeedVectorSetValue(program.sinks[t].vec, 0.0));
-      }
+  /// zeros, unless `sets` says that the caller sets all their entries where it can, see is_set().
+  ProgramArrays(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode, bool sets = false)
+      : is_set_(program.num_sinks, false) {
+    for (CeedInt t = 0; mode == CEED_APPLY_ADD_ACTIVE && t < program.num_sinks; t++) {
+      if (program.sinks[t].is_active) continue;
+      is_set_[t] = sets && can_be_set(program, t);
+      if (!is_set_[t]) chk(CeedVectorSetValue(program.sinks[t].vec, 0.0));
     }
     read(program, in);
     // Several sinks may share a vector, which has one writer at a time.
@@ -114,7 +115,7 @@ class ProgramArrays {
       const auto place = static_cast<std::size_t>(found - written.begin());
       if (found == written.end()) {
         written.push_back(vec);
-        writers_.push_back(std::make_unique<Writer>(vec));
+        writers_.push_back(std::make_unique<Writer>(vec, is_set_[t] ? Writer::write_only : Writer::read_write));
       }
       sinks_.push_back(writers_[place]->data());
     }
@@ -124,6 +125,8 @@ class ProgramArrays {
   const std::vector<const CeedScalar *> &sources() const { return sources_; }
   const std::vector<CeedScalar *> &sinks() const { return sinks_; }
   const CeedScalar *points() const { return points_ ? points_->data() : nullptr; }
+  /// Whether the entries of a sink have no values yet and are to be set, not added to.
+  bool is_set(std::size_t sink) const { return is_set_[sink]; }
   void release() {
     for (const auto &writer : writers_) writer->release();
     for (const auto &reader : readers_) reader->release();
@@ -131,6 +134,20 @@ class ProgramArrays {
   }
 
  private:
+  /// Each entry of the vector is an entry of this sink alone.
+  static bool can_be_set(const CeedProgram &program, CeedInt sink) {
+    const CeedProgramSide &side = program.sinks[sink];
+    const CeedElementMap *map = nullptr;
+    CeedSize length = 0;
+    if (!side.is_points) return false;
+    for (CeedInt t = 0; t < program.num_sinks; t++) {
+      if (t != sink && !program.sinks[t].is_active && program.sinks[t].vec == side.vec) return false;
+    }
+    chk(CeedElemRestrictionGetElementMap(side.rstr, &map));
+    chk(CeedVectorGetLength(side.vec, &length));
+    return map->is_copy && map->l_size == length;
+  }
+
   void read(const CeedProgram &program, CeedVector in) {
     if (program.at_points) points_ = std::make_unique<Reader>(program.points);
     for (CeedInt s = 0; s < program.num_sources; s++) {
@@ -145,6 +162,7 @@ class ProgramArrays {
   std::vector<std::unique_ptr<Writer>> writers_;
   std::vector<const CeedScalar *> sources_;
   std::vector<CeedScalar *> sinks_;
+  std::vector<bool> is_set_;
 };
 
 /// Calls visit(field, component, active value) for all active values of fields.

@@ -115,9 +115,9 @@ struct Kernels {
   /// values_(c,p) = l[offsets[p]*num_comp + c], p < num_points; l has l_size numbers
   void (*gather_points)(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *l,
                         CeedSize l_size, CeedSize stride, CeedScalar *values);
-  /// l[offsets[p]*num_comp + c] += values_(c,p)
-  void (*scatter_add_points)(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *values,
-                             CeedSize stride, CeedScalar *l);
+  /// l[offsets[p]*num_comp + c] = values_(c,p); the second one: +=
+  void (*scatter_points[2])(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *values,
+                            CeedSize stride, CeedScalar *l);
 
   /// block_(c,n) = l[offsets[n*step] + c*comp_stride]
   void (*gather)(const BlockNodes &nodes, const CeedScalar *l, CeedScalar *block);

@@ -198,11 +198,11 @@ void PointOperator::pad(const PointBlock &block, CeedInt size, CeedScalar *value
 }
 
 /// Integrates the QFunction's outputs and adds them to the L-vectors of the sinks.
-void PointOperator::write(const PointBlock &block, const std::vector<const CeedScalar *> &sources,
-                          const std::vector<CeedScalar *> &sinks) {
+void PointOperator::write(const PointBlock &block, const ProgramArrays &arrays) {
   CeedScalar *work = arena_[work_], *coefficients = arena_[coefficients_];
   Ahead ahead;
-  if (largest_source_ >= 0) ahead = ask_for(block, *sources_[largest_source_].points, sources[largest_source_]);
+  if (largest_source_ >= 0)
+    ahead = ask_for(block, *sources_[largest_source_].points, arrays.sources()[largest_source_]);
   for (const Evaluation &e : integrations_) {
     const PointBasis &basis = this->basis(e.space);
     if (block.num_elem() < W_) std::fill_n(coefficients, basis.num_coefficients() * W_, 0.0);
@@ -223,28 +223,28 @@ void PointOperator::write(const PointBlock &block, const std::vector<const CeedS
   for_lanes(results_.size(), block.num_elem(), [&](CeedInt lane, CeedInt end) {
     for (const Result &result : results_) {
       sinks_[result.side].nodes->scatter_add(block.first(), block.num_elem(), lane, end, arena_[result.rows],
-                                             sinks[result.side]);
+                                             arrays.sinks()[result.side]);
     }
   });
   for (const Copy &copy : copies_out_) {
     const Side &side = sinks_[copy.side];
     const CeedInt *places = block.places(*side.points, places_);
     block.for_each_run([&](CeedInt first, CeedInt count) {
-      kernels_->scatter_add_points(count, side.num_comp, places + first, arena_[copy.array] + first, block.stride(),
-                                   sinks[copy.side]);
+      kernels_->scatter_points[!arrays.is_set(copy.side)](
+          count, side.num_comp, places + first, arena_[copy.array] + first, block.stride(), arrays.sinks()[copy.side]);
     });
   }
 }
 
 void PointOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
-  ProgramArrays arrays(program, in, out, mode);
+  ProgramArrays arrays(program, in, out, mode, true);
   ContextData context(program.qf);
   for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
     const PointBlock block = this->block(first, num_elem, true);
     if (block.num_points() == 0) return;
     read(block, arrays.points(), arrays.sources());
     call(program, block, context.data());
-    write(block, arrays.sources(), arrays.sinks());
+    write(block, arrays);
   });
   context.release();
   arrays.release();

@@ -68,8 +68,7 @@ class PointOperator {
   const PointBasis &basis(CeedInt space) const { return bases_[basis_of_space_[space]]; }
   Ahead ask_for(const PointBlock &block, const CeedElementMap &map, const CeedScalar *l) const;
   void read(const PointBlock &block, const CeedScalar *x_ref, const std::vector<const CeedScalar *> &sources);
-  void write(const PointBlock &block, const std::vector<const CeedScalar *> &sources,
-             const std::vector<CeedScalar *> &sinks);
+  void write(const PointBlock &block, const ProgramArrays &arrays);
   void pad(const PointBlock &block, CeedInt size, CeedScalar *values) const;
 
   const Kernels *kernels_;

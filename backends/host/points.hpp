@@ -303,11 +303,34 @@ inline void gather_points(CeedInt num_points, CeedInt num_comp, const CeedInt *o
   }
 }
 
-inline void scatter_add_points(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *values,
-                               CeedSize stride, CeedScalar *l) {
-  for (CeedInt p = 0; p < num_points; p++) {
+/// l[offsets[p]*num_comp + c] += values_(c,p), or = without `add`. Columns are turned to rows four by four, as far as
+/// components fill rows of four; points are added one after another, so that one may be listed twice.
+template <bool add>
+inline void scatter_points(CeedInt num_points, CeedInt num_comp, const CeedInt *offsets, const CeedScalar *values,
+                           CeedSize stride, CeedScalar *l) {
+  const CeedInt num_turned = HG_HOST_WIDTH >= 4 ? num_comp / 4 * 4 : 0;
+  CeedInt p = 0;
+#if HG_HOST_WIDTH >= 4
+  for (; p + 4 <= num_points; p += 4) {
+    for (CeedInt c = 0; c < num_turned; c += 4) {
+      Four square[4];
+#pragma GCC unroll 4
+      for (int i = 0; i < 4; i++) square[i] = load_four(values + (c + i) * stride + p);
+      transpose_fours(square);
+#pragma GCC unroll 4
+      for (int i = 0; i < 4; i++) {
+        CeedScalar *to = l + static_cast<CeedSize>(offsets[p + i]) * num_comp + c;
+        store_four(to, add ? load_four(to) + square[i] : square[i]);
+      }
+    }
+  }
+#endif
+  const CeedInt done = p;
+  for (p = 0; p < num_points; p++) {
     CeedScalar *to = l + static_cast<CeedSize>(offsets[p]) * num_comp;
-    for (CeedInt c = 0; c < num_comp; c++) to[c] += values[c * stride + p];
+    for (CeedInt c = p < done ? num_turned : 0; c < num_comp; c++) {
+      to[c] = add ? to[c] + values[c * stride + p] : values[c * stride + p];
+    }
   }
 }
 

@@ -234,7 +234,7 @@ void List::point_vectors(CeedInt num_points, CeedInt num_comp) {
       });
   add(joined("scatter_add_points/", name),
       {.loads = count / W_, .number_loads = count, .number_stores = count, .bytes = bytes + sizeof(CeedScalar) * count},
-      [=, kernel = kernels_.scatter_add_points] {
+      [=, kernel = kernels_.scatter_points[1]] {
         return [=, offsets = make_offsets(), l = numbers(l_size), values = numbers(stride * num_comp)] {
           kernel(num_points, num_comp, offsets->data(), values.get(), stride, l.get());
         };

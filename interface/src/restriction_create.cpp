@@ -1,6 +1,7 @@
 // Making element restrictions.
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "restriction.hpp"
 
@@ -130,7 +131,8 @@ const T *keep_table(const CeedElemRestriction_private &r, CeedCopyMode copy_mode
   return kept.data();
 }
 
-/// Checks starts and point numbers, sets the largest number of points of an element and returns the number of entries.
+/// Checks starts and point numbers, sets the largest number of points of an element and whether each entry is listed
+/// once, and returns the number of entries.
 CeedInt check_points(CeedElemRestriction_private &r, CeedInt num_points, const CeedInt *offsets,
                      hg::Where where = hg::Where::current()) {
   const CeedInt num_elem = r.num_elem;
@@ -167,6 +169,8 @@ CeedInt check_points(CeedElemRestriction_private &r, CeedInt num_points, const C
       },
       where);
   const CeedSize num_places = r.l_size / r.num_comp;
+  r.is_copy = num_entries * static_cast<CeedSize>(r.num_comp) == r.l_size;
+  std::vector<bool> is_listed(r.is_copy ? static_cast<std::size_t>(num_places) : 0);
   for (CeedInt e = 0; e < num_elem; e++) {
     for (CeedInt i = offsets[e]; i < offsets[e + 1]; i++) {
       hg::require(
@@ -179,6 +183,9 @@ CeedInt check_points(CeedElemRestriction_private &r, CeedInt num_points, const C
                             i - offsets[e], e, offsets[i], num_places, r.l_size, r.num_comp);
           },
           where);
+      if (!r.is_copy) continue;
+      r.is_copy = !is_listed[offsets[i]];
+      is_listed[offsets[i]] = true;
     }
   }
   return num_entries;

@@ -87,15 +87,65 @@ template <int packs>
   for (int i = 0; i < packs; i++) ask(ahead);
 }
 
+/// Lists with more components are read, and added to, by functions of their own: copies of them at each place would
+/// take compilers longer than all the rest.
+inline constexpr int most_inlined = 6;
+
+/// values_(c,p) = component c at the p-th of n listed points, and up to the stride the last of them again.
+template <int num_comp>
+[[gnu::always_inline]] inline void read_here(const CeedInt *list, CeedInt n, const CeedScalar *l, CeedSize l_size,
+                                             CeedInt stride, CeedScalar *values) {
+  gather_points(n, num_comp, list, l, l_size, stride, values);
+  for (CeedInt c = 0; c < num_comp && n < stride; c++) {
+    CeedScalar *component = values + c * stride;
+    for (CeedInt p = n; p < stride; p++) component[p] = component[n - 1];
+  }
+}
+template <int num_comp>
+[[gnu::noinline]] void read_apart(const CeedInt *list, CeedInt n, const CeedScalar *l, CeedSize l_size, CeedInt stride,
+                                  CeedScalar *values) {
+  read_here<num_comp>(list, n, l, l_size, stride, values);
+}
+template <int num_comp>
+[[gnu::always_inline]] inline void read_list(const CeedInt *list, CeedInt n, const Side &side, const CeedScalar *l,
+                                             CeedInt stride, CeedScalar *values) {
+  if constexpr (num_comp > most_inlined) {
+    read_apart<num_comp>(list, n, l, side.l_size, stride, values);
+  } else {
+    read_here<num_comp>(list, n, l, side.l_size, stride, values);
+  }
+}
+
+/// Component c at the p-th of n listed points += values_(c,p), or = where `set`.
+template <int num_comp>
+[[gnu::always_inline]] inline void write_here(const CeedInt *list, CeedInt n, const CeedScalar *values, CeedInt stride,
+                                              bool set, CeedScalar *l) {
+  if (set) {
+    scatter_points<false>(n, num_comp, list, values, stride, l);
+  } else {
+    scatter_points<true>(n, num_comp, list, values, stride, l);
+  }
+}
+template <int num_comp>
+[[gnu::noinline]] void write_apart(const CeedInt *list, CeedInt n, const CeedScalar *values, CeedInt stride, bool set,
+                                   CeedScalar *l) {
+  write_here<num_comp>(list, n, values, stride, set, l);
+}
+template <int num_comp>
+[[gnu::always_inline]] inline void write_list(const CeedInt *list, CeedInt n, const CeedScalar *values, CeedInt stride,
+                                              bool set, CeedScalar *l) {
+  if constexpr (num_comp > most_inlined) {
+    write_apart<num_comp>(list, n, values, stride, set, l);
+  } else {
+    write_here<num_comp>(list, n, values, stride, set, l);
+  }
+}
+
 /// values_(c,p) = component c at point p
 template <int num_comp>
 [[gnu::always_inline]] inline void read_points(const Side &side, const CeedScalar *l, const Along &points,
                                                CeedScalar *values) {
-  gather_points(points.n, num_comp, points.places(side), l, side.l_size, points.stride, values);
-  for (CeedInt c = 0; c < num_comp && points.n < points.stride; c++) {
-    CeedScalar *component = values + c * points.stride;
-    for (CeedInt p = points.n; p < points.stride; p++) component[p] = component[points.n - 1];
-  }
+  read_list<num_comp>(points.places(side), points.n, side, l, points.stride, values);
 }
 template <int num_comp>
 [[gnu::always_inline]] inline void read_points(const Side &side, const CeedScalar *l, const Across &points,
@@ -104,23 +154,31 @@ template <int num_comp>
   for (CeedInt i = 0; i * W < points.stride; i++) {
     for (CeedInt lane = 0; lane < W; lane++) places[i * W + lane] = points.place(side, i, lane);
   }
-  gather_points(points.stride, num_comp, places, l, side.l_size, points.stride, values);
+  read_list<num_comp>(places, points.stride, side, l, points.stride, values);
 }
 
-/// Component c at point p += values_(c,p)
+/// Component c at point p += values_(c,p), or = where `set`
 template <int num_comp>
-[[gnu::always_inline]] inline void add_points(const Side &side, const Along &points, const CeedScalar *values,
-                                              CeedScalar *l) {
-  scatter_add_points(points.n, num_comp, points.places(side), values, points.stride, l);
+[[gnu::always_inline]] inline void write_points(const Side &side, const Along &points, const CeedScalar *values,
+                                                bool set, CeedScalar *l) {
+  write_list<num_comp>(points.places(side), points.n, values, points.stride, set, l);
 }
 template <int num_comp>
-[[gnu::always_inline]] inline void add_points(const Side &side, const Across &points, const CeedScalar *values,
-                                              CeedScalar *l) {
+[[gnu::always_inline]] inline void write_points(const Side &side, const Across &points, const CeedScalar *values,
+                                                bool set, CeedScalar *l) {
+  const bool are_there = points.are_there();
   for (CeedInt i = 0; i * W < points.stride; i++) {
-    for (CeedInt lane = 0; lane < W; lane++) {
-      if (points.k + i >= points.block.count[lane]) continue;
-      const CeedInt place = points.place(side, i, lane);
-      scatter_add_points(1, num_comp, &place, values + i * W + lane, points.stride, l);
+    CeedInt places[W], first = 0, n = 0;
+    for (CeedInt lane = 0; lane < W; lane++) places[lane] = points.place(side, i, lane);
+    const auto is_there = [&](CeedInt lane) { return are_there || points.k + i < points.block.count[lane]; };
+    for (CeedInt lane = 0; lane <= W; lane++) {  // runs of points that are there
+      if (lane < W && is_there(lane)) {
+        n++;
+        continue;
+      }
+      if (n > 0) write_list<num_comp>(places + first, n, values + i * W + first, points.stride, set, l);
+      first = lane + 1;
+      n = 0;
     }
   }
 }

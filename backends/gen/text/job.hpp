@@ -22,6 +22,7 @@ struct Job {
   const Side *sources, *sinks;       ///< as in the program
   const CeedScalar *const *inputs;   ///< L-vectors of the sources
   CeedScalar *const *outputs;        ///< L-vectors of the sinks
+  const bool *sets;                  ///< at points: which sinks are set, not added to
   const CeedScalar *const *numbers;  ///< matrices and weights, as they were printed
   CeedScalar *work;                  ///< as many numbers as were printed
   const Side *points;                ///< at points: their reference coordinates,

@@ -80,6 +80,8 @@ typedef struct {
   CeedInt num_bands;         ///< of T_e. 0: it is the identity; 1: it is diagonal, of signs; 3: it is tridiagonal
   const CeedInt8 *bands;     ///< num_bands*elem_size entries for each element: T_e(n, n + k - num_bands/2) is entry
                              ///< n*num_bands + k; what would lie outside of T_e may have any value
+  bool is_copy;              ///< whether each entry of the L-vector is one entry of the E-vector, so that R^T may write
+                             ///< where it would add to zeros; known at points, false elsewhere
 } CeedElementMap;
 
 /// Restrictions. The core keeps the tables on the host and has checked their range.
