@@ -37,17 +37,36 @@ host::Contraction printed_contraction(CeedInt M, CeedInt N, host::Symmetry symme
   return symmetry == host::Symmetry::none || std::max(M, N) <= largest_even_odd ? never_called : nullptr;
 }
 
+/// Elements of a block: as many as there are lanes, but half of them where the block's points have planes whole pages
+/// apart, which a contraction across them would read from one set of the first-level cache. (Eight lanes, eight points
+/// in a direction: 5 to 25 % slower than four lanes, docs/performance/cpu.md.)
+CeedInt width_for(const host::Kernels &kernels, const CeedProgram &program) {
+  constexpr std::size_t page = 4096;
+  bool is_half = false;
+  for (CeedInt i = 0; i < program.num_spaces && !program.at_points; i++) {
+    CeedInt dim = 0, Q_1d = 0;
+    bool is_tensor = false;
+    chk(CeedBasisIsTensor(program.spaces[i].basis, &is_tensor));
+    if (!is_tensor) continue;
+    chk(CeedBasisGetDimension(program.spaces[i].basis, &dim));
+    chk(CeedBasisGetNumQuadraturePoints1D(program.spaces[i].basis, &Q_1d));
+    is_half = is_half || (dim == 3 && sizeof(CeedScalar) * kernels.width * Q_1d * Q_1d % page == 0);
+  }
+  return is_half && kernels.width == host::max_width ? kernels.width / 2 : kernels.width;
+}
+
 }  // namespace
 
-Operator::Operator(host::Operator &&interpreted, const host::Kernels &kernels)
+Operator::Operator(host::Operator &&interpreted, const host::Kernels &kernels, const CeedProgram &program)
     : host::Operator(std::move(interpreted)), kernels_(kernels) {
   kernels_.contraction = printed_contraction;
+  kernels_.width = width_for(kernels, program);
 }
 
 std::unique_ptr<Operator> Operator::make(const host::Kernels &kernels, const CeedProgram &program) {
   auto interpreted = host::Operator::make(kernels, program);
   if (interpreted == nullptr) return nullptr;
-  return std::unique_ptr<Operator>(new Operator(std::move(*interpreted), kernels));
+  return std::unique_ptr<Operator>(new Operator(std::move(*interpreted), kernels, program));
 }
 
 void Operator::prepare_assembly(const CeedProgram &program) {

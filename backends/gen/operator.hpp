@@ -32,7 +32,7 @@ class Operator : public host::Operator {
   std::size_t num_bytes() const;
 
  private:
-  Operator(host::Operator &&interpreted, const host::Kernels &kernels);
+  Operator(host::Operator &&interpreted, const host::Kernels &kernels, const CeedProgram &program);
   void compile(const CeedProgram &program, bool with_loop);
   Printed print(const CeedProgram &program, const std::string &function);
 

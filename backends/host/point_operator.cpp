@@ -25,11 +25,28 @@ PointOperator PointOperator::followed(const CeedProgram &program) const {
   return followed;
 }
 
+namespace {
+
+/// Whether any of the fields is evaluated from nodes, or integrated to them.
+bool is_any_at_nodes(const CeedProgramField *fields, CeedInt count) {
+  return std::any_of(fields, fields + count, [](const CeedProgramField &field) {
+    return field.eval_mode != CEED_EVAL_NONE && field.eval_mode != CEED_EVAL_WEIGHT;
+  });
+}
+
+/// What is all at points is copied, and all arrays are to stream by at once: in pieces of so many points (32: 1.5 times
+/// the rate that pieces of 200 have, in memory).
+constexpr CeedSize few_points = 32;
+
+}  // namespace
+
 PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program, std::vector<PointBasis> bases)
     : kernels_(&kernels), W_(kernels.width), points_epoch_(program.points_epoch), bases_(std::move(bases)) {
   chk(CeedQFunctionGetUserFunction(program.qf, &function_));
   chk(CeedQFunctionGetVectorLength(program.qf, &vec_length_));
-  is_exact_ = may_count_points(program.qf);
+  has_nodes_ =
+      is_any_at_nodes(program.inputs, program.num_inputs) || is_any_at_nodes(program.outputs, program.num_outputs);
+  may_lie_across_ = has_nodes_ && !may_count_points(program.qf);
   chk(CeedElemRestrictionGetElementMap(program.points_rstr, &points_));
   dim_ = points_->num_comp;
   for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
@@ -37,6 +54,9 @@ PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program,
       most_points_ = std::max(most_points_, block(first, num_elem, is_across).stride());
     }
   });
+  const CeedSize num_points = points_->offsets[program.num_elem] - points_->offsets[0];
+  few_elements_ =
+      std::clamp(few_points * program.num_elem / std::max<CeedSize>(num_points, 1), CeedSize(1), CeedSize(W_));
   for (CeedInt s = 0; s < program.num_sources; s++) sources_.push_back(make_side(kernels, program.sources[s]));
   for (CeedInt t = 0; t < program.num_sinks; t++) sinks_.push_back(make_side(kernels, program.sinks[t]));
   std::size_t num_bases = 0;
@@ -122,7 +142,7 @@ void PointOperator::place_outputs(const CeedProgram &program) {
 }
 
 PointBlock PointOperator::block(CeedInt first, CeedInt num_elem, bool may_lie_across) const {
-  return {*points_, W_, vec_length_, may_lie_across && !is_exact_, first, num_elem};
+  return {*points_, W_, vec_length_, may_lie_across && may_lie_across_, first, num_elem};
 }
 
 namespace {
@@ -167,12 +187,13 @@ void PointOperator::read(const PointBlock &block, const CeedScalar *x_ref,
     kernels_->gather_points(block.size(), map.num_comp, block.places(map, places_), l, map.l_size, block.stride(),
                             values);
   };
-  gather(*points_, x_ref, arena_[x_ref_]);
+  if (has_nodes_) gather(*points_, x_ref, arena_[x_ref_]);
   for (std::size_t s = 0; s < sources_.size(); s++) {
     if (sources[s] == nullptr || sources_[s].block < 0) continue;
     sources_[s].nodes->gather(block.first(), block.num_elem(), sources[s], arena_[sources_[s].block], work);
   }
-  Ahead ahead = ask_for(block, *points_, x_ref);
+  Ahead ahead;
+  if (has_nodes_) ahead = ask_for(block, *points_, x_ref);
   for (const Evaluation &e : evaluations_) {
     if (sources[e.side] == nullptr) continue;
     const PointBasis &basis = this->basis(e.space);
@@ -201,7 +222,7 @@ void PointOperator::pad(const PointBlock &block, CeedInt size, CeedScalar *value
 void PointOperator::write(const PointBlock &block, const ProgramArrays &arrays) {
   CeedScalar *work = arena_[work_], *coefficients = arena_[coefficients_];
   Ahead ahead;
-  if (largest_source_ >= 0)
+  if (has_nodes_ && largest_source_ >= 0)
     ahead = ask_for(block, *sources_[largest_source_].points, arrays.sources()[largest_source_]);
   for (const Evaluation &e : integrations_) {
     const PointBasis &basis = this->basis(e.space);
@@ -239,7 +260,7 @@ void PointOperator::write(const PointBlock &block, const ProgramArrays &arrays) 
 void PointOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
   ProgramArrays arrays(program, in, out, mode, true);
   ContextData context(program.qf);
-  for_blocks(0, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
+  for_blocks(0, program.num_elem, has_nodes_ ? W_ : few_elements_, [&](CeedInt first, CeedInt num_elem) {
     const PointBlock block = this->block(first, num_elem, true);
     if (block.num_points() == 0) return;
     read(block, arrays.points(), arrays.sources());

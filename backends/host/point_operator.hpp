@@ -73,7 +73,9 @@ class PointOperator {
 
   const Kernels *kernels_;
   CeedInt W_, vec_length_ = 1;
-  bool is_exact_ = false;  ///< the QFunction may count its points
+  bool has_nodes_ = false;       ///< some field is evaluated from nodes or integrated to them
+  bool may_lie_across_ = false;  ///< blocks of points, see PointBlock
+  CeedInt few_elements_ = 1;     ///< of a block, where all is at points
   CeedSize points_epoch_;
   CeedQFunctionUser function_ = nullptr;
   const CeedElementMap *points_ = nullptr;

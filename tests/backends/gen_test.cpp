@@ -125,6 +125,27 @@ TEST_F(Gen, CompilesNothingWhenValuesMeshesOrPointsChange) {
   }
 }
 
+/// Eight points in a direction, where blocks are of half as many elements: what is beyond the last whole one is not left
+/// out, nor done twice.
+TEST_F(Gen, TakesElementsInHalfBlocks) {
+  write_factor(3);
+  const Function function = write_scale();
+  const auto work = [](const char *on, const Function &of) {
+    const CeedHandle ceed{open(on)};
+    Results results;
+    for (const CeedInt num_elem : {1, 4, 7, 9, 13}) {
+      results.push_back(Model(ceed, {.dim = 3, .num_elem = num_elem, .Q = 8}, of, {2.0}).apply());
+    }
+    return results;
+  };
+  const Results want = work(reference_resource, {scale<3>, function.location});
+  const Ran ran = in_process(environment(), [&] { return work(resource, function); });
+  ASSERT_EQ(ran.failure, "");
+  EXPECT_EQ(ran.err, "");
+  ASSERT_EQ(ran.results.size(), want.size());
+  for (std::size_t i = 0; i < want.size(); i++) expect_close(ran.results[i], want[i], 1e-13, "result");
+}
+
 /// Assembly calls the compiled QFunction; so does an application after it, with a loop that is compiled then.
 TEST_F(Gen, AssemblesWithWhatIsCompiled) {
   write_factor(3);
