@@ -37,20 +37,27 @@ host::Contraction printed_contraction(CeedInt M, CeedInt N, host::Symmetry symme
   return symmetry == host::Symmetry::none || std::max(M, N) <= largest_even_odd ? never_called : nullptr;
 }
 
-/// Elements of a block: as many as there are lanes, but half of them where the block's points have planes whole pages
-/// apart, which a contraction across them would read from one set of the first-level cache. (Eight lanes, eight points
-/// in a direction: 5 to 25 % slower than four lanes, docs/performance/cpu.md.)
+/// Elements of a block: as many as there are lanes, or half of them in three dimensions where derivatives are evaluated
+/// (what is stored for them is then asked for less long before it is used: 3 to 20 % faster with 27 points or more, up
+/// to 30 % slower with fewer), and where the points' planes are whole pages apart, which a contraction across them
+/// would read from one set of the first-level cache (up to 25 %). Measured with eight lanes, docs/performance/cpu.md.
 CeedInt width_for(const host::Kernels &kernels, const CeedProgram &program) {
   constexpr std::size_t page = 4096;
+  constexpr CeedInt few_points = 27;
   bool is_half = false;
-  for (CeedInt i = 0; i < program.num_spaces && !program.at_points; i++) {
+  for (CeedInt i = 0; i < program.num_inputs && !program.at_points; i++) {
+    const CeedProgramField &field = program.inputs[i];
+    if (field.eval_mode != CEED_EVAL_INTERP && field.eval_mode != CEED_EVAL_GRAD) continue;
+    const CeedBasis basis = program.spaces[field.space].basis;
     CeedInt dim = 0, Q_1d = 0;
     bool is_tensor = false;
-    chk(CeedBasisIsTensor(program.spaces[i].basis, &is_tensor));
+    chk(CeedBasisIsTensor(basis, &is_tensor));
     if (!is_tensor) continue;
-    chk(CeedBasisGetDimension(program.spaces[i].basis, &dim));
-    chk(CeedBasisGetNumQuadraturePoints1D(program.spaces[i].basis, &Q_1d));
-    is_half = is_half || (dim == 3 && sizeof(CeedScalar) * kernels.width * Q_1d * Q_1d % page == 0);
+    chk(CeedBasisGetDimension(basis, &dim));
+    chk(CeedBasisGetNumQuadraturePoints1D(basis, &Q_1d));
+    const bool has_planes_in_a_set = sizeof(CeedScalar) * kernels.width * Q_1d * Q_1d % page == 0;
+    const bool has_derivatives = field.eval_mode == CEED_EVAL_GRAD && program.num_qpts >= few_points;
+    is_half = is_half || (dim == 3 && (has_planes_in_a_set || has_derivatives));
   }
   return is_half && kernels.width == host::max_width ? kernels.width / 2 : kernels.width;
 }

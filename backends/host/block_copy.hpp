@@ -1,6 +1,6 @@
 /// @file
 /// From L-vectors to blocks of elements and back. Floor: each number of the L-vector is loaded, and stored on the way
-/// back, by itself (gather instructions were slower); rows are turned in registers.
+/// back, by itself (gather instructions were slower); rows are turned in registers, W by W.
 #pragma once
 
 #include "kernels.hpp"
@@ -75,22 +75,28 @@ inline void scatter_add(const BlockNodes &nodes, CeedInt lane, const CeedScalar 
 
 inline void gather_rows(CeedInt count, const CeedScalar *const *rows, CeedScalar *block) {
   CeedInt k = 0;
-  for (; k + T <= count; k += T) {
-    Pack columns[T];
-    load_turned([&](int lane) { return rows[lane] + k; }, columns);
-#pragma GCC unroll 4
-    for (int i = 0; i < T; i++) store(block + (static_cast<CeedSize>(k) + i) * W, columns[i]);
+  for (; k + W <= count; k += W) {
+    Pack square[W];
+#pragma GCC unroll 8
+    for (int lane = 0; lane < W; lane++) square[lane] = load_anywhere(rows[lane] + k);
+    transpose(square);
+#pragma GCC unroll 8
+    for (int i = 0; i < W; i++) store(block + (static_cast<CeedSize>(k) + i) * W, square[i]);
   }
-  for (; k < count; k++) store(block + static_cast<CeedSize>(k) * W, collect(rows, k));
+  for (; k < count; k++) {
+    for (int lane = 0; lane < W; lane++) block[static_cast<CeedSize>(k) * W + lane] = rows[lane][k];
+  }
 }
 
 inline void to_rows(CeedSize count, const CeedScalar *block, CeedScalar *rows) {
   CeedSize k = 0;
-  for (; k + T <= count; k += T) {
-    Pack columns[T];
-#pragma GCC unroll 4
-    for (int i = 0; i < T; i++) columns[i] = load(block + (k + i) * W);
-    store_turned(columns, [&](int lane) { return rows + lane * count + k; });
+  for (; k + W <= count; k += W) {
+    Pack square[W];
+#pragma GCC unroll 8
+    for (int i = 0; i < W; i++) square[i] = load(block + (k + i) * W);
+    transpose(square);
+#pragma GCC unroll 8
+    for (int lane = 0; lane < W; lane++) store_anywhere(rows + lane * count + k, square[lane]);
   }
   for (; k < count; k++) {
     for (int lane = 0; lane < W; lane++) rows[lane * count + k] = block[k * W + lane];
@@ -99,15 +105,17 @@ inline void to_rows(CeedSize count, const CeedScalar *block, CeedScalar *rows) {
 
 inline void to_entries(const EntryPlaces &to, const CeedScalar *block, CeedScalar *entries) {
   const CeedInt *place = to.places;
-  CeedScalar beyond[T];  // lanes without an element
   for (CeedInt row = 0; row < to.num_rows; row++, place += to.num_columns, entries += to.row_stride) {
     CeedInt k = 0;
-    for (; k + T <= to.num_columns; k += T) {
-      Pack columns[T];
-#pragma GCC unroll 4
-      for (int i = 0; i < T; i++) columns[i] = load(block + static_cast<CeedSize>(place[k + i]) * W);
-      store_turned(columns,
-                   [&](int lane) { return lane < to.num_elem ? entries + lane * to.elem_stride + k : beyond; });
+    for (; k + W <= to.num_columns; k += W) {
+      Pack square[W];
+#pragma GCC unroll 8
+      for (int i = 0; i < W; i++) square[i] = load(block + static_cast<CeedSize>(place[k + i]) * W);
+      transpose(square);
+#pragma GCC unroll 8
+      for (int lane = 0; lane < W; lane++) {
+        if (lane < to.num_elem) store_anywhere(entries + lane * to.elem_stride + k, square[lane]);
+      }
     }
     for (; k < to.num_columns; k++) {
       const CeedScalar *from = block + static_cast<CeedSize>(place[k]) * W;

@@ -113,32 +113,32 @@ template <int S, int... lanes>
   b = high;
 }
 
-#if HG_HOST_WIDTH == 2
-#define HG_HOST_LANES 0, 1
-#elif HG_HOST_WIDTH == 4
-#define HG_HOST_LANES 0, 1, 2, 3
-#elif HG_HOST_WIDTH == 8
-#define HG_HOST_LANES 0, 1, 2, 3, 4, 5, 6, 7
-#else
-#error "HG_HOST_WIDTH is 2, 4 or 8"
-#endif
-template <int S, int n>
-[[gnu::always_inline]] inline void swap_all_blocks(Pack (&rows)[n]) {
-#pragma GCC unroll 8
-  for (int i = 0; i < n; i++) {
-    if ((i & S) == 0) swap_blocks<S, HG_HOST_LANES>(rows[i], rows[i + S]);
+template <int S, int... lanes>
+[[gnu::always_inline]] inline void swap_all_blocks(Pack (&rows)[W]) {
+#pragma GCC unroll 16
+  for (int i = 0; i < W; i++) {
+    if ((i & S) == 0) swap_blocks<S, lanes...>(rows[i], rows[i + S]);
   }
 }
 
-/// Swaps rows and columns of each n by n square of n packs.
-template <int n>
-[[gnu::always_inline]] inline void transpose(Pack (&rows)[n]) {
-  swap_all_blocks<1>(rows);
-  if constexpr (n > 2) swap_all_blocks<2>(rows);
-  if constexpr (n > 4) swap_all_blocks<4>(rows);
+/// rows[i][j] <-> rows[j][i]
+[[gnu::always_inline]] inline void transpose(Pack (&rows)[W]) {
+#if HG_HOST_WIDTH == 2
+  swap_all_blocks<1, 0, 1>(rows);
+#elif HG_HOST_WIDTH == 4
+  swap_all_blocks<1, 0, 1, 2, 3>(rows);
+  swap_all_blocks<2, 0, 1, 2, 3>(rows);
+#elif HG_HOST_WIDTH == 8
+  swap_all_blocks<1, 0, 1, 2, 3, 4, 5, 6, 7>(rows);
+  swap_all_blocks<2, 0, 1, 2, 3, 4, 5, 6, 7>(rows);
+  swap_all_blocks<4, 0, 1, 2, 3, 4, 5, 6, 7>(rows);
+#else
+#error "HG_HOST_WIDTH is 2, 4 or 8"
+#endif
 }
 
 #if HG_HOST_WIDTH >= 4
+/// Four numbers: rows and columns are turned by fours, for which processors have more ports than for wider ones.
 typedef CeedScalar Four __attribute__((vector_size(4 * sizeof(CeedScalar))));
 typedef CeedScalar UnalignedFour
     __attribute__((vector_size(4 * sizeof(CeedScalar)), aligned(sizeof(CeedScalar)), may_alias));
@@ -160,38 +160,5 @@ typedef CeedScalar UnalignedFour
   rows[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 #endif
-
-/// Numbers of W rows that are turned to columns at once: four, for wider rows lie in two cache lines, and take a third
-/// more steps.
-inline constexpr int T = W < 4 ? W : 4;
-
-/// columns[j][lane] = row(lane)[j]
-template <typename Row>
-[[gnu::always_inline]] inline void load_turned(Row &&row, Pack (&columns)[T]) {
-#pragma GCC unroll 4
-  for (int i = 0; i < T; i++) {
-#if HG_HOST_WIDTH == 8
-    columns[i] = __builtin_shufflevector(load_four(row(i)), load_four(row(i + 4)), HG_HOST_LANES);
-#else
-    columns[i] = load_anywhere(row(i));
-#endif
-  }
-  transpose(columns);
-}
-
-/// row(lane)[j] = columns[j][lane]
-template <typename Row>
-[[gnu::always_inline]] inline void store_turned(Pack (&columns)[T], Row &&row) {
-  transpose(columns);
-#pragma GCC unroll 4
-  for (int i = 0; i < T; i++) {
-#if HG_HOST_WIDTH == 8
-    store_four(row(i), __builtin_shufflevector(columns[i], columns[i], 0, 1, 2, 3));
-    store_four(row(i + 4), __builtin_shufflevector(columns[i], columns[i], 4, 5, 6, 7));
-#else
-    store_anywhere(row(i), columns[i]);
-#endif
-  }
-}
 
 }  // namespace hg::host::HG_HOST_ISA

@@ -104,11 +104,15 @@ template <int size, int num_comp, int count = size>
       rows[lane] = l + e * side.elem_stride + c * side.comp_stride + begin;
     }
     CeedInt k = 0;
-    for (; k + T <= count; k += T) {
-      Pack columns[T];
-      load_turned([&](int lane) { return rows[lane] + k; }, columns);
-#pragma GCC unroll 4
-      for (int i = 0; i < T; i++) store(block + (k + i) * W, columns[i]);
+    for (; k + W <= count; k += W) {
+      Pack square[W];
+#pragma GCC unroll 8
+      for (int lane = 0; lane < W; lane++) {
+        square[lane] = load_anywhere(rows[lane] + k);
+      }
+      transpose(square);
+#pragma GCC unroll 8
+      for (int i = 0; i < W; i++) store(block + (k + i) * W, square[i]);
     }
     for (; k < count; k++) store(block + k * W, collect(rows, k));
   }
