@@ -89,7 +89,7 @@ std::vector<std::string> usable_resources() {
     if (name.find("/memcheck") != std::string::npos) continue;  // it catches misuse of arrays: its times mean nothing
     Ceed ceed = nullptr;
     if (CeedInit(name.c_str(), &ceed) != CEED_ERROR_SUCCESS || !ceed) continue;
-    usable.push_back(name);
+    if (resource_name(ceed) == name) usable.push_back(name);  // else another name of one that is listed as well
     CeedDestroy(&ceed);
   }
   return usable;

@@ -2,7 +2,8 @@
 """Draw the throughput of bake-off runs over degree and over size, one line for each backend.
 
 Reads the JSON files that bps-kernel --json and bps -json write, and writes one PNG: a row for each problem, on the left
-the best throughput at each degree, on the right the throughput at each size, one line for each degree.
+the best throughput at each degree, on the right the throughput at each size, one line for each degree. Runs that all
+have about one size are drawn over degree alone, two problems in a row.
 """
 import argparse
 import collections
@@ -78,8 +79,14 @@ def draw(records, quantity, title):
     color = {backend: COLORS[i % len(COLORS)] for i, backend in enumerate(backends)}
     marker = {degree: MARKERS[i % len(MARKERS)] for i, degree in enumerate(degrees)}
 
-    figure, axes = plt.subplots(len(problems), 2, figsize=(10, 0.9 + 2.9 * len(problems)), squeeze=False)
-    for (over_degree, over_size), problem in zip(axes, problems):
+    sizes = [record["dofs"] for record in records]
+    has_sizes = max(sizes) > 2 * min(sizes)
+    num_rows = len(problems) if has_sizes else (len(problems) + 1) // 2
+    figure, axes = plt.subplots(num_rows, 2, figsize=(10, 0.9 + 2.9 * num_rows), squeeze=False)
+    panels = axes if has_sizes else [(axis, None) for axis in axes.flat]
+    for axis, _ in panels[len(problems):]:
+        axis.set_visible(False)
+    for (over_degree, over_size), problem in zip(panels, problems):
         best = collections.defaultdict(dict)
         lines = collections.defaultdict(list)
         for record, backend in zip(records, labels):
@@ -91,21 +98,23 @@ def draw(records, quantity, title):
         for backend in sorted(best):
             xs, ys = zip(*sorted(best[backend].items()))
             over_degree.plot(xs, ys, marker="o", color=color[backend], label=backend)
-        for (backend, degree), points in sorted(lines.items()):
-            xs, ys = zip(*sorted(points))
-            over_size.plot(xs, ys, marker=marker[degree], color=color[backend], linewidth=1)
         over_degree.set_xticks(degrees)
-        over_size.set_xscale("log")
-        for axis in (over_degree, over_size):
+        if has_sizes:
+            for (backend, degree), points in sorted(lines.items()):
+                xs, ys = zip(*sorted(points))
+                over_size.plot(xs, ys, marker=marker[degree], color=color[backend], linewidth=1)
+            over_size.set_xscale("log")
+        for axis in (over_degree, over_size) if has_sizes else (over_degree,):
             axis.set_ylim(bottom=0)
             axis.grid(True, linewidth=0.3)
             axis.set_title(problem.upper(), loc="left", fontsize=10)
         over_degree.set_ylabel(QUANTITIES[quantity])
     axes[-1][0].set_xlabel("degree p")
-    axes[-1][1].set_xlabel("DoFs")
-    for degree in degrees:
-        axes[0][1].plot([], [], marker=marker[degree], color="gray", linewidth=0, label=f"p = {degree}")
-    axes[0][1].legend(fontsize=7, ncol=2)
+    axes[-1][1].set_xlabel("DoFs" if has_sizes else "degree p")
+    if has_sizes:
+        for degree in degrees:
+            axes[0][1].plot([], [], marker=marker[degree], color="gray", linewidth=0, label=f"p = {degree}")
+        axes[0][1].legend(fontsize=7, ncol=2)
     handles = [plt.Line2D([], [], marker="o", color=color[backend], label=backend) for backend in backends]
     figure.legend(handles=handles, fontsize=8, loc="lower center", ncol=min(2, len(backends)))
     figure.suptitle(title, fontsize=11)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,12 @@ TEST(Kernel, EveryBackendOfTheLibraryRuns) {
   EXPECT_TRUE(std::ranges::none_of(records, [](const auto &r) {
     return r["ceed"].template get<std::string>().find("memcheck") != std::string::npos;
   }));
-  for (const auto &record : records) expect_record(record);
+  std::map<std::string, int> num_runs;
+  for (const auto &record : records) {
+    expect_record(record);
+    num_runs[record["ceed"]]++;
+  }
+  for (const auto &[ceed, num] : num_runs) EXPECT_EQ(num, 6) << ceed << ": once for each problem, other names left out";
 }
 
 TEST(Kernel, RecordsHoldTheSchema) {

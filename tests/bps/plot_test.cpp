@@ -43,6 +43,15 @@ TEST_F(Plot, DrawsThroughputOverDegreeAndSize) {
   }
 }
 
+TEST_F(Plot, DrawsRunsOfOneSizeOverDegreeAlone) {
+  const std::string three = make_records("a.json", "--problem bp1,bp3,bp5 --degree 1-2 --dofs 200");
+  const auto picture = folder_ / "degree.png";
+  const Finished finished = run(plot + three + "-o " + quoted(picture));
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_NE(finished.out.find("6 records"), std::string::npos) << finished.out;
+  EXPECT_EQ(read_text(picture).substr(0, 4), "\x89PNG");
+}
+
 TEST_F(Plot, SaysWhatIsWrongWithAFile) {
   const auto broken = folder_ / "broken.json", other = folder_ / "other.json";
   std::ofstream(broken) << "{ not json";
