@@ -30,7 +30,7 @@ class BlockOperator {
   void set_function(CeedQFunctionUser function) { function_ = function; }
   /// As CeedOperatorOps::apply_add().
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
-  /// The part of it that belongs to the elements from `first` on, a multiple of W.
+  /// The part of it that belongs to the elements from `first` on.
   void apply_from(CeedInt first, const CeedProgram &program, const ProgramArrays &arrays, void *context);
   /// As CeedOperatorOps::linear_assemble_qfunction().
   void linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem, CeedVector values);
