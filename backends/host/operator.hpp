@@ -29,7 +29,7 @@ class Operator {
   void follow(const CeedProgram &program);
   /// As CeedOperatorOps::apply_add().
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
-  /// The part of it that belongs to the elements from `first` on, a multiple of the width; at quadrature points alone.
+  /// The part of it that belongs to the elements from `first` on; at quadrature points alone.
   void apply_from(CeedInt first, const CeedProgram &program, const ProgramArrays &arrays, void *context);
   /// As CeedOperatorOps::linear_assemble_qfunction().
   void linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem, CeedVector values);
