@@ -8,9 +8,23 @@ namespace {
 
 using namespace hg::test;
 
-class Gen : public Workshop {};
-
 constexpr const char *resource = compiled_resource;
+
+class Gen : public Workshop {
+ protected:
+  /// Results of work(resource, function) with the function that scales by 3.
+  template <typename Work>
+  void expect_what_the_reference_gives(Work &&work, double tolerance) {
+    write_factor(3);
+    const Function function = write_scale();
+    const Results want = work(reference_resource, {scale<3>, function.location});
+    const Ran ran = in_process(environment(), [&] { return work(resource, function); });
+    ASSERT_EQ(ran.failure, "");
+    EXPECT_EQ(ran.err, "");
+    ASSERT_EQ(ran.results.size(), want.size());
+    for (std::size_t i = 0; i < want.size(); i++) expect_close(ran.results[i], want[i], tolerance, "result");
+  }
+};
 
 /// Elements in a row: fewer than a block has, a full block and some more, ...
 constexpr CeedInt some_numbers[] = {1, 11, 16};
@@ -125,11 +139,9 @@ TEST_F(Gen, CompilesNothingWhenValuesMeshesOrPointsChange) {
   }
 }
 
-/// Eight points in a direction, where blocks are of half as many elements: what is beyond the last whole one is not left
-/// out, nor done twice.
+/// Eight points in a direction, where blocks are of half as many elements: what is beyond the last whole one is not
+/// left out, nor done twice.
 TEST_F(Gen, TakesElementsInHalfBlocks) {
-  write_factor(3);
-  const Function function = write_scale();
   const auto work = [](const char *on, const Function &of) {
     const CeedHandle ceed{open(on)};
     Results results;
@@ -138,18 +150,11 @@ TEST_F(Gen, TakesElementsInHalfBlocks) {
     }
     return results;
   };
-  const Results want = work(reference_resource, {scale<3>, function.location});
-  const Ran ran = in_process(environment(), [&] { return work(resource, function); });
-  ASSERT_EQ(ran.failure, "");
-  EXPECT_EQ(ran.err, "");
-  ASSERT_EQ(ran.results.size(), want.size());
-  for (std::size_t i = 0; i < want.size(); i++) expect_close(ran.results[i], want[i], 1e-13, "result");
+  expect_what_the_reference_gives(work, 1e-13);
 }
 
 /// Assembly calls the compiled QFunction; so does an application after it, with a loop that is compiled then.
 TEST_F(Gen, AssemblesWithWhatIsCompiled) {
-  write_factor(3);
-  const Function function = write_scale();
   const auto work = [](const char *on, const Function &of) {
     const CeedHandle ceed{open(on)};
     Results results;
@@ -166,12 +171,7 @@ TEST_F(Gen, AssemblesWithWhatIsCompiled) {
     }
     return results;
   };
-  const Results want = work(reference_resource, {scale<3>, function.location});
-  const Ran ran = in_process(environment(), [&] { return work(resource, function); });
-  ASSERT_EQ(ran.failure, "");
-  EXPECT_EQ(ran.err, "");
-  ASSERT_EQ(ran.results.size(), want.size());
-  for (std::size_t i = 0; i < want.size(); i++) expect_close(ran.results[i], want[i], 1e-12, "result");
+  expect_what_the_reference_gives(work, 1e-12);
   EXPECT_LE(num_made(), 4) << "QFunction and loop, at quadrature points and at points";
 }
 
