@@ -87,10 +87,9 @@ std::vector<std::string> usable_resources() {
   std::vector<std::string> usable;
   for (const auto &name : registered_resources()) {
     if (name.find("/memcheck") != std::string::npos) continue;  // it catches misuse of arrays: its times mean nothing
-    Ceed ceed = nullptr;
-    if (CeedInit(name.c_str(), &ceed) != CEED_ERROR_SUCCESS || !ceed) continue;
+    Context ceed;
+    if (CeedInit(name.c_str(), ceed.out()) != CEED_ERROR_SUCCESS || !ceed) continue;
     if (resource_name(ceed) == name) usable.push_back(name);  // else another name of one that is listed as well
-    CeedDestroy(&ceed);
   }
   return usable;
 }
