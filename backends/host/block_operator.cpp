@@ -37,6 +37,11 @@ BlockOperator::BlockOperator(const Kernels &kernels, const CeedProgram &program)
     for (const Side &side : *sides) work = std::max(work, side.map.work_size());
   }
   work_ = arena_.add(work);
+}
+
+/// Not before they are used: where `gen` has compiled the loop and blocks are full, they never are.
+void BlockOperator::make_arrays(const CeedProgram &program) {
+  if (!in_.empty() || !out_.empty()) return;
   arena_.allocate();
   for (CeedInt i = 0; i < program.num_inputs; i++) {
     in_.push_back(arena_[input_arrays_[i]]);
@@ -232,6 +237,7 @@ void BlockOperator::write(CeedInt first, CeedInt num_elem, const std::vector<Cee
 
 void BlockOperator::apply_from(CeedInt first_elem, const CeedProgram &program, const ProgramArrays &arrays,
                                void *context) {
+  make_arrays(program);
   for_blocks(first_elem, program.num_elem, W_, [&](CeedInt first, CeedInt num_elem) {
     ask_for_block(static_cast<CeedSize>(first) + W_, arrays.sources());
     read(first, num_elem, arrays.sources());
@@ -252,6 +258,7 @@ void BlockOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVec
 /// Column by column: the QFunction of a unit value of each active input, all others zero.
 void BlockOperator::linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem,
                                               CeedVector values) {
+  make_arrays(program);
   ProgramArrays arrays(program);
   Writer assembled(values, Writer::write_only);
   ContextData context(program.qf);

@@ -15,7 +15,7 @@ namespace hg::host {
 
 /// v = Σ_e R_e^T B^T D(B R_e u) as a loop over blocks of elements, made once from the operator's program: gather,
 /// evaluate, call the QFunction at W Q points, integrate, scatter. Point q of lane l is the QFunction's point q W + l.
-/// All arrays of a block are made with it; the loop allocates nothing. One thread at a time.
+/// All arrays of a block are made when it is first used; the loop allocates nothing. One thread at a time.
 ///
 /// Memory: for each block W numbers for each node and point of each field, whatever the size of the mesh.
 /// Floor of an application, bytes for each element: 4 nodes (offsets), 8 for each number of the fields stored at
@@ -55,6 +55,7 @@ class BlockOperator {
   void place_inputs(const CeedProgram &program);
   void place_outputs(const CeedProgram &program);
   void add_result(CeedInt side, int array);
+  void make_arrays(const CeedProgram &program);
   void fill_weights(const CeedProgram &program);
   void plan_ahead();
   void ask_for_block(CeedSize first, const std::vector<const CeedScalar *> &sources);

@@ -31,7 +31,7 @@ class Arena {
     if (!memory_) throw std::bad_alloc();
     std::fill_n(memory_.get(), length, 0.0);
   }
-  std::size_t num_bytes() const { return (length_ + max_width) * sizeof(CeedScalar); }
+  std::size_t num_bytes() const { return memory_ ? (length_ + max_width) * sizeof(CeedScalar) : 0; }
   /// NULL for index -1
   CeedScalar *operator[](int index) const { return index < 0 ? nullptr : memory_.get() + starts_[index]; }
 

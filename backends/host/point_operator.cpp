@@ -79,6 +79,11 @@ PointOperator::PointOperator(const Kernels &kernels, const CeedProgram &program,
   coefficients_ = arena_.add(coefficients * W_);
   sums_ = arena_.add(coefficients * max_width);  // of points side by side
   work_ = arena_.add(work);
+}
+
+/// Not before they are used: where `gen` has compiled the loop, they are for assembly alone.
+void PointOperator::make_arrays(const CeedProgram &program) {
+  if (!in_.empty() || !out_.empty()) return;
   arena_.allocate();
   for (CeedInt i = 0; i < program.num_inputs; i++) {
     in_.push_back(arena_[input_arrays_[i]]);
@@ -258,6 +263,7 @@ void PointOperator::write(const PointBlock &block, const ProgramArrays &arrays) 
 }
 
 void PointOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+  make_arrays(program);
   ProgramArrays arrays(program, in, out, mode, true);
   ContextData context(program.qf);
   for_blocks(0, program.num_elem, has_nodes_ ? W_ : few_elements_, [&](CeedInt first, CeedInt num_elem) {
@@ -278,6 +284,7 @@ void PointOperator::call(const CeedProgram &program, const PointBlock &block, vo
 /// Column by column: the QFunction of a unit value of each active input, all others zero.
 void PointOperator::linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem,
                                               CeedVector values) {
+  make_arrays(program);
   ProgramArrays arrays(program);
   Writer assembled(values, Writer::write_only);
   ContextData context(program.qf);

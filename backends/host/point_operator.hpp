@@ -59,6 +59,7 @@ class PointOperator {
   Side make_side(const Kernels &kernels, const CeedProgramSide &side) const;
   int add_values(CeedInt size);
   bool add_nodes(Side &side);
+  void make_arrays(const CeedProgram &program);
   void place_inputs(const CeedProgram &program);
   void place_outputs(const CeedProgram &program);
   PointBlock block(CeedInt first, CeedInt num_elem, bool may_lie_across) const;
