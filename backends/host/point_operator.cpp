@@ -281,6 +281,14 @@ void PointOperator::call(const CeedProgram &program, const PointBlock &block, vo
   check_returned(program, function_(context, block.stride(), in_.data(), out_.data()), block.first(), block.num_elem());
 }
 
+/// Elements, a power of two, whose matrices stay in the second-level cache while column after column is written.
+CeedInt PointOperator::elements_to_assemble(CeedSize numbers_of_point) const {
+  constexpr CeedSize most = CeedSize{1} << 14;  // numbers: 128 KiB
+  CeedInt num_elem = W_;
+  while (num_elem > 1 && numbers_of_point * most_points_ / W_ * num_elem > most) num_elem /= 2;
+  return num_elem;
+}
+
 /// Column by column: the QFunction of a unit value of each active input, all others zero.
 void PointOperator::linear_assemble_qfunction(const CeedProgram &program, CeedInt first_elem, CeedInt num_elem,
                                               CeedVector values) {
@@ -290,8 +298,10 @@ void PointOperator::linear_assemble_qfunction(const CeedProgram &program, CeedIn
   ContextData context(program.qf);
   const CeedInt num_out = program.num_active_out;
   const CeedSize of_point = static_cast<CeedSize>(program.num_active_in) * num_out;
+  std::vector<const CeedScalar *> results(num_out);
   CeedScalar *to = assembled.data();
-  for_blocks(first_elem, first_elem + num_elem, W_, [&](CeedInt first, CeedInt lanes) {
+  const CeedInt step = elements_to_assemble(of_point);
+  for_blocks(first_elem, first_elem + num_elem, step, [&](CeedInt first, CeedInt lanes) {
     const PointBlock block = this->block(first, lanes, false);  // in the order of the list
     if (block.num_points() == 0) return;
     read(block, arrays.points(), arrays.sources());
@@ -299,14 +309,17 @@ void PointOperator::linear_assemble_qfunction(const CeedProgram &program, CeedIn
       std::fill_n(arena_[input_arrays_[i]] + static_cast<std::size_t>(c) * block.stride(), block.stride(), value);
     };
     for_each_active(program.inputs, program.num_inputs, [&](CeedInt i, CeedInt c, CeedInt) { fill_input(i, c, 0); });
+    for_each_active(program.outputs, program.num_outputs, [&](CeedInt o, CeedInt c, CeedInt d) {
+      results[d] = arena_[output_arrays_[o]] + static_cast<std::size_t>(c) * block.stride();
+    });
     for_each_active(program.inputs, program.num_inputs, [&](CeedInt i, CeedInt c, CeedInt column) {
       fill_input(i, c, 1);
       call(program, block, context.data());
       fill_input(i, c, 0);
-      for_each_active(program.outputs, program.num_outputs, [&](CeedInt o, CeedInt d, CeedInt row) {
-        const CeedScalar *from = arena_[output_arrays_[o]] + static_cast<std::size_t>(d) * block.stride();
-        for (CeedInt p = 0; p < block.num_points(); p++) to[p * of_point + column * num_out + row] = from[p];
-      });
+      CeedScalar *row = to + column * num_out;
+      for (CeedInt p = 0; p < block.num_points(); p++, row += of_point) {
+        for (CeedInt d = 0; d < num_out; d++) row[d] = results[d][p];
+      }
     });
     to += block.num_points() * of_point;
   });

@@ -60,6 +60,7 @@ class PointOperator {
   int add_values(CeedInt size);
   bool add_nodes(Side &side);
   void make_arrays(const CeedProgram &program);
+  CeedInt elements_to_assemble(CeedSize numbers_of_point) const;
   void place_inputs(const CeedProgram &program);
   void place_outputs(const CeedProgram &program);
   PointBlock block(CeedInt first, CeedInt num_elem, bool may_lie_across) const;
