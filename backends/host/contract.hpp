@@ -109,13 +109,16 @@ void contract_any(const CeedScalar *B, CeedInt M, CeedInt N, CeedInt pre, CeedIn
   };
   for (CeedInt a = 0; a < pre; a++, in += N * step, out += M * step) {
     CeedInt m = 0;
-    for (; m + 4 <= M; m += 4) rows(Count<4>(), m);
-    if (M - m == 3) {
-      rows(Count<3>(), m);
-    } else if (M - m == 2) {
-      rows(Count<2>(), m);
-    } else if (M - m == 1) {
-      rows(Count<1>(), m);
+    for (; m + 8 <= M; m += 4) rows(Count<4>(), m);
+    // One or two rows alone would wait for their own sums.
+    switch (M - m) {
+      case 7: rows(Count<7>(), m); break;
+      case 6: rows(Count<6>(), m); break;
+      case 5: rows(Count<5>(), m); break;
+      case 4: rows(Count<4>(), m); break;
+      case 3: rows(Count<3>(), m); break;
+      case 2: rows(Count<2>(), m); break;
+      case 1: rows(Count<1>(), m); break;
     }
   }
 }
