@@ -16,8 +16,8 @@ std::string library_version();
 /// Every resource in the library's registry, in its order.
 std::vector<std::string> registered_resources();
 
-/// The resources among registered_resources() that initialise on this machine, each once, and are there for work: no
-/// memcheck.
+/// The resources among registered_resources() that initialise on this machine, each once, and are there for work: neither
+/// memcheck nor the emulator.
 std::vector<std::string> usable_resources();
 
 /// The bytes that an operator works with, where the library counts them: it is looked for by its name, so that these

@@ -5,20 +5,21 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <mutex>
 #include <set>
 #include <sstream>
 #include <string_view>
 
-#include "cache.hpp"
-#include "compiler.hpp"
-#include "host_text.hpp"
+#include "../jit/cache.hpp"
+#include "../jit/tell.hpp"
+#include "texts.hpp"
 
 #if defined(__x86_64__)
 #include <cpuid.h>
 #endif
 
 namespace hg::gen {
+
+using jit::Cache, jit::Compiler, jit::is_set, jit::NotCompiled, jit::tell_once;
 
 namespace {
 
@@ -83,30 +84,18 @@ std::vector<std::string> options_for(const host::Kernels &kernels, const Source 
 /// The folder of our own headers, written where it is not there.
 std::filesystem::path headers_in(const Cache &cache) {
   std::string all;
-  for (const HostText &header : host_texts) all += std::string(header.name) + '\n' + header.text;
-  const std::filesystem::path folder = "include-" + digest(all);
-  for (const HostText &header : host_texts) cache.keep(folder / header.name, header.text);
+  for (const jit::Text &header : texts) all += std::string(header.name) + '\n' + header.text;
+  const std::filesystem::path folder = "include-" + jit::digest(all);
+  for (const jit::Text &header : texts) cache.keep(folder / header.name, header.text);
   return cache.folder() / folder;
 }
 
-/// Lines that define what is defined for the QFunction, and lines that end that: our own text does not see it.
-void print_defines(const Source &source, std::string &begin, std::string &end) {
-  for (const auto &define : source.defines) {
-    if (define[0] == '-') continue;
-    const auto equals = define.find('=');
-    const bool has_value = equals != std::string::npos;
-    begin += "#define " + define.substr(0, equals) + ' ' + (has_value ? define.substr(equals + 1) : "1") + '\n';
-    end += "#undef " + define.substr(0, std::min(equals, define.find('('))) + '\n';
-  }
-}
-
 std::string text_of(const host::Kernels &kernels, const Source &source, const Printed &printed) {
-  std::string defines, end_of_defines;
-  print_defines(source, defines, end_of_defines);
+  const jit::Defines defines = jit::lines_of(source.defines);
   std::string text = "// The QFunction " + source.function + ", compiled for the operator that it belongs to.\n";
   text += "#define HG_HOST_ISA compiled\n#define HG_HOST_WIDTH " + std::to_string(kernels.width) +
           "\n#define HG_HOST_FUSES\n#include <honeyguide/begin.hpp>\n#include <honeyguide/at_points.hpp>\n\n";
-  text += defines + "#include \"" + source.file.string() + "\"\n" + end_of_defines + '\n';
+  text += defines.begin + "#include \"" + source.file.string() + "\"\n" + defines.end + '\n';
   text += "// " + source.digest + " is the digest of all that it includes.\n";
   if (!printed.does_all) {
     text +=
@@ -119,18 +108,6 @@ std::string text_of(const host::Kernels &kernels, const Source &source, const Pr
 }
 
 }  // namespace
-
-bool is_set(const char *variable) {
-  const char *value = std::getenv(variable);
-  return value != nullptr && *value != '\0' && std::string_view(value) != "0";
-}
-
-void tell_once(const std::string &key, const std::string &text) {
-  static std::mutex mutex;
-  static std::set<std::string> told;
-  const std::scoped_lock lock(mutex);
-  if (told.insert(key).second) std::fprintf(stderr, "%s\n", text.c_str());
-}
 
 Library compile(const host::Kernels &kernels, const Source &source, const Printed &printed) {
   const Compiler compiler = Compiler::find();

@@ -5,11 +5,13 @@
 #include <ceed/plugin.h>
 
 #include "../host/kernels.hpp"
+#include "../jit/source.hpp"
 #include "print.hpp"
-#include "source.hpp"
 #include "text/job.hpp"
 
 namespace hg::gen {
+
+using jit::Source;
 
 /// What was compiled; valid as long as the process.
 struct Library {
@@ -20,10 +22,5 @@ struct Library {
 /// Compiles a QFunction with the loop that was printed for it, or takes both from the cache. Throws NotCompiled. With
 /// CEED_GEN_REPORT it is told on standard error which of the QFunction's loops became SIMD, and why others did not.
 Library compile(const host::Kernels &kernels, const Source &source, const Printed &printed);
-
-/// Whether a variable of the environment is there, and neither empty nor 0.
-bool is_set(const char *variable);
-/// Tells a text on standard error, once in a process for each key.
-void tell_once(const std::string &key, const std::string &text);
 
 }  // namespace hg::gen

@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "../host/access.hpp"
-#include "compiler.hpp"
+#include "../jit/compiler.hpp"
+#include "../jit/tell.hpp"
 
 namespace hg::gen {
 
-using host::chk;
+using host::chk, jit::is_set, jit::NoSource, jit::NotCompiled, jit::tell_once;
 
 namespace {
 

@@ -37,10 +37,12 @@ int wall(Ceed ceed, F &&f) {
   }
 }
 
-/// A host array for a scope. release() ends it before, where an error still counts.
+/// An array for a scope. release() ends it before, where an error still counts.
 class Reader {
  public:
-  explicit Reader(CeedVector vec) : vec_(vec) { chk(CeedVectorGetArrayRead(vec, CEED_MEM_HOST, &array_)); }
+  explicit Reader(CeedVector vec, CeedMemType mem_type = CEED_MEM_HOST) : vec_(vec) {
+    chk(CeedVectorGetArrayRead(vec, mem_type, &array_));
+  }
   Reader(const Reader &) = delete;
   Reader &operator=(const Reader &) = delete;
   ~Reader() {
@@ -58,9 +60,9 @@ class Reader {
 class Writer {
  public:
   enum Mode { read_write, write_only };
-  explicit Writer(CeedVector vec, Mode mode = read_write) : vec_(vec) {
-    chk(mode == read_write ? CeedVectorGetArray(vec, CEED_MEM_HOST, &array_)
-                           : CeedVectorGetArrayWrite(vec, CEED_MEM_HOST, &array_));
+  explicit Writer(CeedVector vec, Mode mode = read_write, CeedMemType mem_type = CEED_MEM_HOST) : vec_(vec) {
+    chk(mode == read_write ? CeedVectorGetArray(vec, mem_type, &array_)
+                           : CeedVectorGetArrayWrite(vec, mem_type, &array_));
   }
   Writer(const Writer &) = delete;
   Writer &operator=(const Writer &) = delete;
@@ -92,15 +94,16 @@ class ContextData {
   void *data_ = nullptr;
 };
 
-/// The arrays that an operator works on, for a scope.
+/// The arrays that an operator works on, for a scope; on a device for CEED_MEM_DEVICE.
 class ProgramArrays {
  public:
   /// Those that are read for an assembly: passive sources, and the points.
   explicit ProgramArrays(const CeedProgram &program) { read(program, nullptr); }
   /// As CeedOperatorOps::apply_add() gets its vectors. Passive outputs that are written, not added to, begin with
   /// zeros, unless `sets` says that the caller sets all their entries where it can, see is_set().
-  ProgramArrays(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode, bool sets = false)
-      : is_set_(program.num_sinks, false) {
+  ProgramArrays(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode, bool sets = false,
+                CeedMemType mem_type = CEED_MEM_HOST)
+      : mem_type_(mem_type), is_set_(program.num_sinks, false) {
     for (CeedInt t = 0; mode == CEED_APPLY_ADD_ACTIVE && t < program.num_sinks; t++) {
       if (program.sinks[t].is_active) continue;
       is_set_[t] = sets && can_be_set(program, t);
@@ -115,7 +118,8 @@ class ProgramArrays {
       const auto place = static_cast<std::size_t>(found - written.begin());
       if (found == written.end()) {
         written.push_back(vec);
-        writers_.push_back(std::make_unique<Writer>(vec, is_set_[t] ? Writer::write_only : Writer::read_write));
+        writers_.push_back(
+            std::make_unique<Writer>(vec, is_set_[t] ? Writer::write_only : Writer::read_write, mem_type_));
       }
       sinks_.push_back(writers_[place]->data());
     }
@@ -149,14 +153,15 @@ class ProgramArrays {
   }
 
   void read(const CeedProgram &program, CeedVector in) {
-    if (program.at_points) points_ = std::make_unique<Reader>(program.points);
+    if (program.at_points) points_ = std::make_unique<Reader>(program.points, mem_type_);
     for (CeedInt s = 0; s < program.num_sources; s++) {
       const CeedVector vec = program.sources[s].is_active ? in : program.sources[s].vec;
-      if (vec != nullptr) readers_.push_back(std::make_unique<Reader>(vec));
+      if (vec != nullptr) readers_.push_back(std::make_unique<Reader>(vec, mem_type_));
       sources_.push_back(vec != nullptr ? readers_.back()->data() : nullptr);
     }
   }
 
+  CeedMemType mem_type_ = CEED_MEM_HOST;
   std::unique_ptr<Reader> points_;
   std::vector<std::unique_ptr<Reader>> readers_;
   std::vector<std::unique_ptr<Writer>> writers_;
@@ -183,6 +188,15 @@ inline bool may_count_points(CeedQFunction qf) {
   const bool has_context = context != nullptr;
   chk(CeedQFunctionContextDestroy(&context));
   return has_context && is_writable;
+}
+
+/// Throws where a QFunction that was called by itself returned another code than 0.
+inline void check_returned(CeedQFunction qf, int code) {
+  if (code == 0) return;
+  const char *name = nullptr;
+  chk(CeedQFunctionGetKernelName(qf, &name));
+  throw Failed{
+      CeedError(CeedQFunctionReturnCeed(qf), CEED_ERROR_BACKEND, "QFunction '%s' returned %d; expected 0", name, code)};
 }
 
 /// Throws where the QFunction of a program returned another code than 0 for the elements from `first` on.

@@ -13,7 +13,7 @@
 
 extern char **environ;
 
-namespace hg::gen {
+namespace hg::jit {
 
 namespace fs = std::filesystem;
 
@@ -133,4 +133,4 @@ Compiler::Outcome Compiler::compile(const std::vector<std::string> &options, boo
   return run(command);
 }
 
-}  // namespace hg::gen
+}  // namespace hg::jit

@@ -9,7 +9,7 @@
 
 #include "compiler.hpp"
 
-namespace hg::gen {
+namespace hg::jit {
 
 /// A folder of compiled libraries, for any number of processes: an entry appears whole, under the name of all that it
 /// depends on, or not at all; one process compiles it while others wait.
@@ -48,4 +48,4 @@ class Cache {
 /// 32 hexadecimal digits (XXH3, 128 bits).
 std::string digest(const std::string &text);
 
-}  // namespace hg::gen
+}  // namespace hg::jit

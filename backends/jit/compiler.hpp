@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hg::gen {
+namespace hg::jit {
 
 /// Why nothing was compiled; what() is for people.
 struct NotCompiled : std::runtime_error {
@@ -45,4 +45,4 @@ class Compiler {
   std::string identity_;
 };
 
-}  // namespace hg::gen
+}  // namespace hg::jit

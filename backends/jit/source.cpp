@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -9,7 +10,7 @@
 #include "../host/access.hpp"
 #include "cache.hpp"
 
-namespace hg::gen {
+namespace hg::jit {
 
 namespace fs = std::filesystem;
 
@@ -82,8 +83,20 @@ Source Source::of(CeedQFunction qf) {
   std::set<fs::path> seen;
   std::string all;
   read(source.file, source.roots, seen, all);
-  source.digest = gen::digest(all);
+  source.digest = jit::digest(all);
   return source;
 }
 
-}  // namespace hg::gen
+Defines lines_of(const std::vector<std::string> &defines) {
+  Defines lines;
+  for (const auto &define : defines) {
+    if (define[0] == '-') continue;
+    const auto equals = define.find('=');
+    const bool has_value = equals != std::string::npos;
+    lines.begin += "#define " + define.substr(0, equals) + ' ' + (has_value ? define.substr(equals + 1) : "1") + '\n';
+    lines.end += "#undef " + define.substr(0, std::min(equals, define.find('('))) + '\n';
+  }
+  return lines;
+}
+
+}  // namespace hg::jit

@@ -19,7 +19,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-namespace hg::gen {
+namespace hg::jit {
 
 namespace fs = std::filesystem;
 
@@ -252,4 +252,4 @@ void Cache::trim() const {
   }
 }
 
-}  // namespace hg::gen
+}  // namespace hg::jit

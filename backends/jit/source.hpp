@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hg::gen {
+namespace hg::jit {
 
 /// Where a QFunction's text is, and what it is made of.
 struct Source {
@@ -22,4 +22,11 @@ struct Source {
   static Source of(CeedQFunction qf);
 };
 
-}  // namespace hg::gen
+/// Lines that define what is defined for a QFunction, and lines that end that: our own text does not see it. What
+/// begins with a dash is an option for a compiler, and left out.
+struct Defines {
+  std::string begin, end;
+};
+Defines lines_of(const std::vector<std::string> &defines);
+
+}  // namespace hg::jit

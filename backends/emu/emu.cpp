@@ -1,0 +1,46 @@
+/// Backends on a device that is none, for tests of what is compiled for devices.
+#include "../gpu/tables.hpp"
+#include "../host/access.hpp"
+#include "../jit/compiler.hpp"
+#include "emulator.hpp"
+
+namespace hg::emu {
+
+namespace {
+
+int init(Ceed ceed, const char *options, CeedBackendOps *ops) {
+  return host::wall(ceed, [&] { host::chk(gpu::init_stages(ceed, std::make_shared<Emulator>(parse(options)), ops)); });
+}
+
+int score(const char **reason) {
+  static std::string why;
+  try {
+    jit::Compiler::find();
+    return 1;
+  } catch (const jit::NotCompiled &error) {
+    why = error.what();
+    *reason = why.c_str();
+    return 0;
+  }
+}
+
+constexpr CeedBackend backend{.resource = "/gpu/emu/ref",
+                              .parent = "/cpu/self/ref/serial",
+                              .priority = CEED_MAX_BACKEND_PRIORITY,
+                              .aliases = nullptr,
+                              .score = score,
+                              .init = init};
+
+constexpr CeedPlugin plugin{.size = sizeof(CeedPlugin),
+                            .api_version = CEED_PLUGIN_API_VERSION,
+                            .name = "emu",
+                            .num_backends = 1,
+                            .backends = &backend};
+
+}  // namespace
+
+}  // namespace hg::emu
+
+const CeedPlugin *ceed_plugin_v1() {
+  return &hg::emu::plugin;
+}

@@ -1,0 +1,123 @@
+/// The language of kernels, for the host: what a thread asks the emulator. Read by both of them.
+#ifndef HG_EMULATOR
+#define HG_EMULATOR
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+namespace hg::gpu {
+
+/// A word of shared memory, and who has used it since the last barrier.
+struct SharedWord {
+  double value;
+  int writer, reader;                ///< a thread; -1: none, -2: several
+  unsigned write_phase, read_phase;  ///< between which barriers that was
+};
+
+/// What a thread sees of its block.
+struct Emulated {
+  int thread, num_threads;
+  uint64_t block, num_blocks;
+  SharedWord *shared;
+  ptrdiff_t num_shared;
+  unsigned phase;  ///< grows with each barrier
+  void (*wait)(Emulated *);
+  void (*fail)(const Emulated *, const char *what, ptrdiff_t word);  ///< does not return
+};
+
+}  // namespace hg::gpu
+
+#ifdef HG_EMULATED_TEXT  // a kernel, not the emulator
+
+#define CEED_RUNNING_JIT_PASS
+#define CEED_QFUNCTION_ATTR
+#define CEED_QFUNCTION_HELPER_ATTR
+#define HG_DEVICE inline
+#define HG_KERNEL(name, Job)                          \
+  static void name##_of_thread(const Job &job);       \
+  extern "C" void name(const void *job) {             \
+    name##_of_thread(*static_cast<const Job *>(job)); \
+  }                                                   \
+  static void name##_of_thread(const Job &job)
+#define HG_SHARED(name) const hg::gpu::Shared name(0)
+
+namespace hg::gpu {
+
+static thread_local Emulated *emulated;
+extern "C" void hg_bind(Emulated *state) {
+  emulated = state;
+}
+
+inline int thread() {
+  return emulated->thread;
+}
+inline int num_threads() {
+  return emulated->num_threads;
+}
+inline ptrdiff_t block() {
+  return static_cast<ptrdiff_t>(emulated->block);
+}
+inline ptrdiff_t num_blocks() {
+  return static_cast<ptrdiff_t>(emulated->num_blocks);
+}
+inline ptrdiff_t index() {
+  return block() * num_threads() + thread();
+}
+inline void barrier() {
+  emulated->wait(emulated);
+}
+
+/// A word that is read and written as a number: what was not written is not read, and between two barriers a word that
+/// one thread writes is not used by another one.
+class SharedNumber {
+ public:
+  explicit SharedNumber(ptrdiff_t place) : place_(place) {
+    if (place < 0 || place >= emulated->num_shared) emulated->fail(emulated, "is outside of shared memory", place);
+  }
+  operator double() const {
+    SharedWord &word = emulated->shared[place_];
+    const int own = emulated->thread;
+    if (word.writer == -1) emulated->fail(emulated, "reads shared memory that was not written", place_);
+    if (word.writer != own && word.write_phase == emulated->phase) {
+      emulated->fail(emulated, "reads what another thread has written since the last barrier", place_);
+    }
+    word.reader = word.read_phase == emulated->phase && word.reader != own ? -2 : own;
+    word.read_phase = emulated->phase;
+    return word.value;
+  }
+  const SharedNumber &operator=(double value) const {
+    SharedWord &word = emulated->shared[place_];
+    const int own = emulated->thread;
+    if (word.writer >= 0 && word.writer != own && word.write_phase == emulated->phase) {
+      emulated->fail(emulated, "writes what another thread has written since the last barrier", place_);
+    }
+    if (word.reader != -1 && word.reader != own && word.read_phase == emulated->phase) {
+      emulated->fail(emulated, "writes what another thread has read since the last barrier", place_);
+    }
+    word.value = value;
+    word.writer = own;
+    word.write_phase = emulated->phase;
+    return *this;
+  }
+  const SharedNumber &operator=(const SharedNumber &other) const { return *this = static_cast<double>(other); }
+  const SharedNumber &operator+=(double value) const { return *this = *this + value; }
+
+ private:
+  ptrdiff_t place_;
+};
+
+/// Shared memory from a word on: a pointer, but for the checks.
+class Shared {
+ public:
+  explicit Shared(ptrdiff_t first) : first_(first) {}
+  SharedNumber operator[](ptrdiff_t i) const { return SharedNumber(first_ + i); }
+  Shared operator+(ptrdiff_t i) const { return Shared(first_ + i); }
+
+ private:
+  ptrdiff_t first_;
+};
+
+}  // namespace hg::gpu
+
+#endif
+#endif

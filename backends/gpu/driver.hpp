@@ -1,0 +1,71 @@
+/// @file
+/// What a vendor's library has to do for us. CUDA, HIP and the emulator differ by a driver, and by nothing else.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace hg::gpu {
+
+/// The device, or its compiler, did not do what it was asked for; what() is for people.
+struct DeviceError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Properties {
+  std::string name;
+  int warp_size;                 ///< threads that run in step
+  int max_threads;               ///< of a block
+  std::size_t shared_per_block;  ///< bytes
+  int num_processors;
+};
+
+/// A function on the device; valid as long as its module.
+struct Kernel {
+  void *handle = nullptr;
+};
+
+/// A loaded text, unloaded in the end.
+class Module {
+ public:
+  virtual ~Module() = default;
+  /// Throws DeviceError where there is none.
+  virtual Kernel kernel(const char *name) = 0;
+};
+
+/// How many threads run a kernel, in one direction.
+struct Launch {
+  std::uint64_t num_blocks;
+  int num_threads;               ///< of a block
+  std::size_t shared_bytes = 0;  ///< of a block
+  bool has_barriers = false;     ///< whether threads wait for each other
+};
+
+/// One device. All work is done in one order, that of the calls (a stream); only copies to the host wait for it.
+/// Functions throw DeviceError, with what the vendor's library says, and allocate() std::bad_alloc.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  virtual const Properties &properties() const = 0;
+
+  /// Memory on the device, aligned to 256 bytes, without values; never NULL.
+  virtual void *allocate(std::size_t bytes) = 0;
+  virtual void free(void *memory) noexcept = 0;
+  virtual void copy_to_device(void *to, const void *from, std::size_t bytes) = 0;
+  /// The values are there when it returns.
+  virtual void copy_to_host(void *to, const void *from, std::size_t bytes) = 0;
+  virtual void copy(void *to, const void *from, std::size_t bytes) = 0;
+
+  /// The stream (CUstream, hipStream_t) that work is given to from now on.
+  virtual void set_stream(void *stream) = 0;
+
+  /// A text in the language of text/: what the driver says of it comes first. `name` is for messages.
+  virtual std::unique_ptr<Module> compile(const std::string &name, const std::string &text) = 0;
+  /// Calls a kernel with its one argument, a struct of text/jobs.hpp, which is copied.
+  virtual void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) = 0;
+};
+
+}  // namespace hg::gpu

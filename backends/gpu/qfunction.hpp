@@ -1,0 +1,44 @@
+/// @file
+/// A QFunction on a device.
+#pragma once
+
+#include <ceed/plugin.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "basis.hpp"
+#include "device.hpp"
+
+namespace hg::gpu {
+
+/// A QFunction that was compiled. It may read its context; what it writes to it is not seen on the host.
+class PointFunction {
+ public:
+  /// Throws jit::NoSource where it came without text, jit::NotCompiled or DeviceError where that cannot be compiled.
+  PointFunction(Device &device, CeedQFunction qf);
+
+  /// Calls it at all points; see QFunctionJob. What it returned, 0 where it returns nothing else.
+  int call(const Points &points, const std::vector<const CeedScalar *> &inputs,
+           const std::vector<CeedScalar *> &outputs);
+
+ private:
+  void *context();
+
+  Device *device_;
+  CeedQFunction qf_;
+  std::unique_ptr<Module> module_;
+  Kernel kernel_;
+  CeedInt vector_length_ = 1;
+  bool may_fail_ = true;
+  Buffer arrays_, context_, failed_;
+  std::vector<const void *> pointers_;  ///< what arrays_ holds
+  std::uint64_t context_state_ = 0;
+};
+
+/// That of a QFunction, which keeps it; NULL where it has no text for the device: it runs on the host, which is told
+/// once.
+PointFunction *function_of(CeedQFunction qf);
+
+}  // namespace hg::gpu

@@ -1,0 +1,50 @@
+#include "tables.hpp"
+
+#include "../host/access.hpp"
+#include "device.hpp"
+
+namespace hg::gpu {
+
+using host::chk, host::wall;
+
+namespace {
+
+CeedBackendOps parents;
+
+int destroy(Ceed ceed) {
+  Device *device = nullptr;
+  CeedCallBackend(CeedGetData(ceed, &device));
+  delete device;
+  return CEED_ERROR_SUCCESS;
+}
+
+int set_stream(Ceed ceed, void *handle) {
+  return wall(ceed, [&] { Device::of(ceed).driver().set_stream(handle); });
+}
+
+}  // namespace
+
+const CeedBackendOps &parents_tables() {
+  return parents;
+}
+
+int init_stages(Ceed ceed, std::shared_ptr<Driver> driver, CeedBackendOps *ops) {
+  return wall(ceed, [&] {
+    if (parents.size == 0) parents = *ops;
+    auto device = std::make_unique<Device>(std::move(driver));
+    ops->preferred_mem_type = CEED_MEM_DEVICE;
+    ops->is_deterministic = true;
+    ops->host_memory_only = false;
+    ops->ceed_destroy = destroy;
+    ops->ceed_set_stream = set_stream;
+    fill_vector_ops(ops->vector);
+    fill_restriction_ops(ops->restriction);
+    fill_basis_ops(ops->basis);
+    fill_qfunction_ops(ops->qfunction);
+    fill_operator_ops(ops->op);
+    chk(CeedSetData(ceed, device.get()));
+    device.release();
+  });
+}
+
+}  // namespace hg::gpu

@@ -1,0 +1,26 @@
+/// @file
+/// The tables of the backends that work on a device.
+#pragma once
+
+#include <ceed/plugin.h>
+
+#include <memory>
+
+#include "driver.hpp"
+
+namespace hg::gpu {
+
+void fill_vector_ops(CeedVectorOps &ops);
+void fill_restriction_ops(CeedElemRestrictionOps &ops);
+void fill_basis_ops(CeedBasisOps &ops);
+void fill_qfunction_ops(CeedQFunctionOps &ops);
+void fill_operator_ops(CeedOperatorOps &ops);
+
+/// Sets a Ceed up whose work is done in stages, a kernel each, on the device of `driver`: the backends .../ref. `ops`
+/// are those of the reference, which does what is not taken here.
+int init_stages(Ceed ceed, std::shared_ptr<Driver> driver, CeedBackendOps *ops);
+
+/// The tables of the reference.
+const CeedBackendOps &parents_tables();
+
+}  // namespace hg::gpu

@@ -1,0 +1,84 @@
+/// What kernels get: each has one struct as its argument. Pointers are to memory on the device.
+#ifndef HG_GPU_JOBS
+#define HG_GPU_JOBS
+#ifndef HG_GPU_TEXT  // read by the host, too
+#include <ceed/types.h>
+#endif
+
+namespace hg::gpu {
+
+/// Entries start + i*step, i = 0 ... length - 1, of vectors.
+struct VectorJob {
+  CeedSize length = 0, start = 0, step = 1;
+  CeedScalar a = 0, b = 0;
+  const CeedScalar *x = nullptr, *y = nullptr;
+  CeedScalar *w = nullptr;
+};
+
+/// Block b puts the norm of its part of x in norms[b].
+struct NormJob {
+  CeedSize length;
+  CeedInt type;  ///< CeedNormType
+  const CeedScalar *x;
+  CeedScalar *norms;
+};
+
+/// Node i of all elements, one element after another. Component c of it is entry place[i] + c*comp_stride of the
+/// L-vector and entry[i] + c*step[i] of the E-vector.
+struct RestrictionJob {
+  CeedSize num_nodes = 0;
+  CeedInt num_comp = 0, comp_stride = 0;
+  const CeedSize *place = nullptr, *entry = nullptr;
+  const CeedInt *step = nullptr;
+  CeedInt elem_size = 0, num_bands = 0;  ///< orientation of an element, see CeedElementMap
+  const CeedInt8 *bands = nullptr;       ///< num_bands for each node
+  /// nodes[rows[r]] ... nodes[rows[r+1] - 1] have one place, the r-th.
+  const CeedSize *rows = nullptr, *nodes = nullptr;
+  CeedSize num_rows = 0;
+  CeedInt comp = 0;  ///< that is scattered
+  const CeedScalar *u = nullptr;
+  CeedScalar *v = nullptr;
+};
+
+/// Points of elements: `num_qpts` in each; or, where there are `starts`, those from starts[e] on, of element
+/// elem[point].
+struct PointsOfElements {
+  CeedSize num_points = 0;
+  CeedInt num_qpts = 0;
+  const CeedSize *starts = nullptr;
+  const CeedInt *elem = nullptr;
+};
+
+/// Values and derivatives: number g of component c at point q of an element is Σ_n v_n Π_d T_(g,d)(q_d, n_d), where T
+/// is a Q by P matrix: `interp`, or `derivative` for d = g; or the row of a point in `table`, see PointTableJob. Where
+/// there is one direction, for bases that are no tensor products, matrix g follows matrix g-1.
+struct BasisJob {
+  PointsOfElements points;
+  CeedInt num_elem = 0, num_comp = 0, num_values = 0, num_directions = 0, P = 0, Q = 0, num_nodes = 0;
+  bool is_tensor = false, is_derivative = false, add = false;
+  const CeedScalar *interp = nullptr, *derivative = nullptr, *table = nullptr;
+  const CeedScalar *u = nullptr;
+  CeedScalar *v = nullptr;
+};
+
+/// Basis functions of one direction at points: table[((point*dim + d)*2 + k)*P + n] is function n (k = 0) or its
+/// derivative (k = 1) at coordinate d of a point, Σ_j coefficients[j*P + n] T_j(x_d).
+struct PointTableJob {
+  PointsOfElements points;
+  CeedInt dim, P, num_coefficients;
+  const CeedScalar *coefficients, *x_ref;
+  CeedScalar *table;
+};
+
+/// Field i of a QFunction, inputs[i] and outputs[i], has its values element by element, component by component, the
+/// point fastest.
+struct QFunctionJob {
+  PointsOfElements points;
+  const CeedScalar *const *inputs;
+  CeedScalar *const *outputs;
+  void *context;
+  int *failed;  ///< what the function returned, where that was not 0; NULL: it returns nothing else
+};
+
+}  // namespace hg::gpu
+#endif

@@ -1,0 +1,188 @@
+// The emulator finds what a device may hide, in kernels that have the faults.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "backends/emu/emulator.hpp"
+
+namespace {
+
+using namespace hg;
+
+constexpr int num_threads = 8;
+constexpr std::uint64_t num_blocks = 3;
+constexpr std::size_t length = num_threads * num_blocks;
+
+/// What the kernels below get.
+struct Job {
+  const double *x;
+  double *y;
+};
+const char *const job_text = "struct Job { const double *x; double *y; };\nusing namespace hg::gpu;\n";
+
+class EmulatorTest : public testing::TestWithParam<const char *> {
+ protected:
+  /// Runs a kernel with this body on x = 0, 1, ...; y.
+  std::vector<double> run(const std::string &body, std::size_t num_shared = num_threads, bool has_barriers = true) {
+    emu::Emulator device(emu::parse(GetParam()));
+    std::vector<double> x(length), y(length, -1);
+    std::iota(x.begin(), x.end(), 0.0);
+    auto *on_device = static_cast<double *>(device.allocate(2 * length * sizeof(double)));
+    device.copy_to_device(on_device, x.data(), length * sizeof(double));
+    device.copy_to_device(on_device + length, y.data(), length * sizeof(double));
+    const auto module = device.compile("test", job_text + ("HG_KERNEL(test, Job) {" + body + "}"));
+    const Job job{on_device, on_device + length};
+    try {
+      device.launch(module->kernel("test"),
+                    {.num_blocks = num_blocks,
+                     .num_threads = num_threads,
+                     .shared_bytes = num_shared * sizeof(double),
+                     .has_barriers = has_barriers},
+                    &job, sizeof job);
+    } catch (...) {
+      device.free(on_device);
+      throw;
+    }
+    device.copy_to_host(y.data(), on_device + length, length * sizeof(double));
+    device.free(on_device);
+    return y;
+  }
+  /// The message with which it is refused.
+  std::string error_of(const std::string &body, std::size_t num_shared = num_threads, bool has_barriers = true) {
+    try {
+      run(body, num_shared, has_barriers);
+    } catch (const gpu::DeviceError &error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  static void expect_names(const std::string &message, const std::string &words) {
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_NE(message.find("'test'"), std::string::npos) << message;
+  }
+};
+
+TEST_P(EmulatorTest, ThreadsExchangeValuesThroughSharedMemory) {
+  const auto y =
+      run("HG_SHARED(s); s[thread()] = job.x[index()]; barrier();"
+          "const double other = s[num_threads() - 1 - thread()]; barrier();"
+          "s[thread()] = other; barrier(); s[thread()] += 100; barrier(); job.y[index()] = s[thread()];");
+  for (std::size_t i = 0; i < length; i++) {
+    const std::size_t block = i / num_threads, thread = i % num_threads;
+    EXPECT_EQ(y[i], 100 + static_cast<double>(block * num_threads + num_threads - 1 - thread));
+  }
+}
+
+TEST_P(EmulatorTest, FindsAMissingBarrier) {
+  const std::string message =
+      error_of("HG_SHARED(s); s[thread()] = job.x[index()]; job.y[index()] = s[(thread() + 1) % num_threads()];");
+  const bool is_found = message.find("reads shared memory that was not written") != std::string::npos ||
+                        message.find("reads what another thread has written") != std::string::npos;
+  EXPECT_TRUE(is_found) << message;
+}
+
+/// Every thread reads what was there before, and whether it is there still is a matter of luck.
+TEST_P(EmulatorTest, FindsAMissingBarrierBeforeAWrite) {
+  expect_names(error_of("HG_SHARED(s); s[thread()] = 1; barrier();"
+                        "const double sum = s[0] + s[1]; s[thread()] = sum; barrier(); job.y[index()] = s[0];"),
+               "since the last barrier");
+}
+
+TEST_P(EmulatorTest, FindsWhatIsReadBeforeItIsWritten) {
+  expect_names(error_of("HG_SHARED(s); if (thread() > 0) s[thread()] = 1; barrier(); job.y[index()] = s[0];"),
+               "reads shared memory that was not written: word 0 of 8");
+}
+
+TEST_P(EmulatorTest, ForgetsSharedMemoryBetweenBlocks) {
+  expect_names(error_of("HG_SHARED(s); if (block() != 1) s[thread()] = 1; barrier(); job.y[index()] = s[thread()];"),
+               "reads shared memory that was not written");
+}
+
+TEST_P(EmulatorTest, FindsWhatIsOutsideOfSharedMemory) {
+  expect_names(error_of("HG_SHARED(s); s[thread() + 1] = 1;"), "is outside of shared memory: word 8 of 8");
+  expect_names(error_of("HG_SHARED(s); s[thread() - 1] = 1;"), "is outside of shared memory: word -1 of 8");
+}
+
+TEST_P(EmulatorTest, FindsARace) {
+  expect_names(error_of("HG_SHARED(s); s[thread() / 2] = thread(); barrier(); job.y[index()] = s[0];"),
+               "writes what another thread has written since the last barrier");
+}
+
+TEST_P(EmulatorTest, FindsABarrierThatNotAllComeTo) {
+  expect_names(error_of("if (thread() != 3) barrier(); job.y[index()] = 1;"),
+               "waits at a barrier that thread 3 does not come to");
+  expect_names(error_of("barrier();", num_threads, false), "has a barrier, and was said to have none");
+}
+
+/// Threads run one after another, so that a counter shows their order.
+TEST_P(EmulatorTest, RunsThreadsInItsOrder) {
+  const auto y =
+      run("double &count = job.y[block() * num_threads()]; if (thread() == 0) count = 0; barrier();"
+          "const double mine = count++; barrier(); job.y[index()] = mine;");
+  const std::string order = GetParam();
+  for (std::uint64_t block = 0; block < num_blocks; block++) {
+    std::vector<double> turns(y.begin() + static_cast<std::ptrdiff_t>(block * num_threads),
+                              y.begin() + static_cast<std::ptrdiff_t>((block + 1) * num_threads));
+    if (order.find("backward") != std::string::npos) {
+      EXPECT_TRUE(std::is_sorted(turns.rbegin(), turns.rend()));
+    } else if (order.find("shuffled") != std::string::npos) {
+      EXPECT_FALSE(std::is_sorted(turns.begin(), turns.end()));
+    } else {
+      EXPECT_TRUE(std::is_sorted(turns.begin(), turns.end()));
+    }
+    std::sort(turns.begin(), turns.end());
+    for (int t = 0; t < num_threads; t++) EXPECT_EQ(turns[t], t);
+  }
+}
+
+TEST_P(EmulatorTest, RefusesLaunchesThatNoDeviceTakes) {
+  expect_names(error_of("", 1 << 20), "cannot be launched with 8 threads and 8388608 bytes of shared memory");
+}
+
+TEST_P(EmulatorTest, NamesAKernelThatIsNotThereAndTextThatIsNone) {
+  emu::Emulator device(emu::parse(GetParam()));
+  const auto module = device.compile("a text", job_text);
+  EXPECT_THROW(module->kernel("nothing"), gpu::DeviceError);
+  try {
+    device.compile("a text", "this is no kernel");
+    FAIL() << "it was compiled";
+  } catch (const gpu::DeviceError &error) {
+    EXPECT_NE(std::string(error.what()).find("'a text' is not compiled"), std::string::npos) << error.what();
+  }
+}
+
+/// What was not written on the device is no number.
+TEST_P(EmulatorTest, PoisonsNewMemory) {
+  emu::Emulator device(emu::parse(GetParam()));
+  void *memory = device.allocate(sizeof(double));
+  double value = 0;
+  device.copy_to_host(&value, memory, sizeof value);
+  device.free(memory);
+  EXPECT_NE(value, value);
+}
+
+INSTANTIATE_TEST_SUITE_P(Orders, EmulatorTest,
+                         testing::Values("order=forward", "order=backward", "order=shuffled,warp=64"),
+                         [](const auto &info) {
+                           std::string name(info.param);
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return c == '=' || c == ','; }, '_');
+                           return name;
+                         });
+
+TEST(EmulatorOptions, AreRead) {
+  EXPECT_EQ(emu::Emulator(emu::parse("warp=64")).properties().warp_size, 64);
+  EXPECT_EQ(emu::Emulator(emu::parse("")).properties().warp_size, 32);
+  try {
+    emu::parse("order=sideways");
+    FAIL() << "it was taken";
+  } catch (const gpu::DeviceError &error) {
+    EXPECT_NE(std::string(error.what()).find("'order=sideways'; expected order=forward"), std::string::npos);
+  }
+}
+
+}  // namespace
