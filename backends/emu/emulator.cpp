@@ -20,21 +20,29 @@ using gpu::DeviceError, gpu::Emulated, gpu::SharedWord;
 
 namespace {
 
-/// A function of a module, and how the module is told of the block.
+/// A function of a module.
 struct Function {
   void (*call)(const void *job);
-  void (*bind)(Emulated *state);
   std::string name;
 };
+
+/// What is running, for the functions that a kernel calls.
+struct Running {
+  Emulated state;
+  Fibers *fibers;  ///< NULL: there are none
+  const Function *function;
+};
+thread_local Running *running = nullptr;
 
 /// A library that stays open as long as the process, as jit::Cache has it.
 class Library : public gpu::Module {
  public:
-  Library(std::string name, void *library) : name_(std::move(name)), library_(library) {}
+  Library(std::string name, void *library) : name_(std::move(name)), library_(library) {
+    const auto bind = reinterpret_cast<void (*)(Emulated * (*)())>(symbol("hg_bind"));
+    bind([] { return &running->state; });
+  }
   gpu::Kernel kernel(const char *name) override {
-    functions_.push_back({.call = reinterpret_cast<void (*)(const void *)>(symbol(name)),
-                          .bind = reinterpret_cast<void (*)(Emulated *)>(symbol("hg_bind")),
-                          .name = name});
+    functions_.push_back({.call = reinterpret_cast<void (*)(const void *)>(symbol(name)), .name = name});
     return {&functions_.back()};
   }
 
@@ -49,14 +57,6 @@ class Library : public gpu::Module {
   void *library_;
   std::list<Function> functions_;  // they are pointed to
 };
-
-/// What is running, for the functions that a kernel calls.
-struct Running {
-  Emulated state;
-  Fibers *fibers;  ///< NULL: there are none
-  const Function *function;
-};
-thread_local Running *running = nullptr;
 
 [[noreturn]] void fail(const Emulated *state, const char *what, std::ptrdiff_t word) {
   throw DeviceError("thread " + std::to_string(state->thread) + " of block " + std::to_string(state->block) +
@@ -178,7 +178,6 @@ void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void 
               .fibers = launch.has_barriers ? &fibers_ : nullptr,
               .function = &function};
   running = &run;
-  function.bind(&run.state);
   const std::function<void(int)> body = [&](int thread) {
     run.state.thread = thread;
     function.call(job);

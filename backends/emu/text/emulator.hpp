@@ -43,28 +43,32 @@ struct Emulated {
 
 namespace hg::gpu {
 
-static thread_local Emulated *emulated;
-extern "C" void hg_bind(Emulated *state) {
-  emulated = state;
+static Emulated *(*of_this_thread)();
+/// Says which function finds the block that a thread of the host runs.
+extern "C" void hg_bind(Emulated *(*find)()) {
+  __atomic_store_n(&of_this_thread, find, __ATOMIC_RELAXED);
+}
+inline Emulated *emulated() {
+  return __atomic_load_n(&of_this_thread, __ATOMIC_RELAXED)();
 }
 
 inline int thread() {
-  return emulated->thread;
+  return emulated()->thread;
 }
 inline int num_threads() {
-  return emulated->num_threads;
+  return emulated()->num_threads;
 }
 inline ptrdiff_t block() {
-  return static_cast<ptrdiff_t>(emulated->block);
+  return static_cast<ptrdiff_t>(emulated()->block);
 }
 inline ptrdiff_t num_blocks() {
-  return static_cast<ptrdiff_t>(emulated->num_blocks);
+  return static_cast<ptrdiff_t>(emulated()->num_blocks);
 }
 inline ptrdiff_t index() {
   return block() * num_threads() + thread();
 }
 inline void barrier() {
-  emulated->wait(emulated);
+  emulated()->wait(emulated());
 }
 
 /// A word that is read and written as a number: what was not written is not read, and between two barriers a word that
@@ -72,31 +76,32 @@ inline void barrier() {
 class SharedNumber {
  public:
   explicit SharedNumber(ptrdiff_t place) : place_(place) {
-    if (place < 0 || place >= emulated->num_shared) emulated->fail(emulated, "is outside of shared memory", place);
+    if (place < 0 || place >= emulated()->num_shared)
+      emulated()->fail(emulated(), "is outside of shared memory", place);
   }
   operator double() const {
-    SharedWord &word = emulated->shared[place_];
-    const int own = emulated->thread;
-    if (word.writer == -1) emulated->fail(emulated, "reads shared memory that was not written", place_);
-    if (word.writer != own && word.write_phase == emulated->phase) {
-      emulated->fail(emulated, "reads what another thread has written since the last barrier", place_);
+    SharedWord &word = emulated()->shared[place_];
+    const int own = emulated()->thread;
+    if (word.writer == -1) emulated()->fail(emulated(), "reads shared memory that was not written", place_);
+    if (word.writer != own && word.write_phase == emulated()->phase) {
+      emulated()->fail(emulated(), "reads what another thread has written since the last barrier", place_);
     }
-    word.reader = word.read_phase == emulated->phase && word.reader != own ? -2 : own;
-    word.read_phase = emulated->phase;
+    word.reader = word.read_phase == emulated()->phase && word.reader != own ? -2 : own;
+    word.read_phase = emulated()->phase;
     return word.value;
   }
   const SharedNumber &operator=(double value) const {
-    SharedWord &word = emulated->shared[place_];
-    const int own = emulated->thread;
-    if (word.writer >= 0 && word.writer != own && word.write_phase == emulated->phase) {
-      emulated->fail(emulated, "writes what another thread has written since the last barrier", place_);
+    SharedWord &word = emulated()->shared[place_];
+    const int own = emulated()->thread;
+    if (word.writer >= 0 && word.writer != own && word.write_phase == emulated()->phase) {
+      emulated()->fail(emulated(), "writes what another thread has written since the last barrier", place_);
     }
-    if (word.reader != -1 && word.reader != own && word.read_phase == emulated->phase) {
-      emulated->fail(emulated, "writes what another thread has read since the last barrier", place_);
+    if (word.reader != -1 && word.reader != own && word.read_phase == emulated()->phase) {
+      emulated()->fail(emulated(), "writes what another thread has read since the last barrier", place_);
     }
     word.value = value;
     word.writer = own;
-    word.write_phase = emulated->phase;
+    word.write_phase = emulated()->phase;
     return *this;
   }
   const SharedNumber &operator=(const SharedNumber &other) const { return *this = static_cast<double>(other); }
