@@ -3,7 +3,7 @@
 
 build_packages="build-essential cmake ninja-build pkg-config petsc-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev
   libmetis-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev libopenblas0-serial"
-test_packages="libgtest-dev libbenchmark-dev valgrind git python3"
+test_packages="libgtest-dev libbenchmark-dev valgrind git python3 libamdhip64-5 libhiprtc-builtins5"
 plot_packages="python3 python3-matplotlib python3-h5py"
 coverage_packages="gcovr"
 docs_packages="doxygen python3-sphinx python3-myst-parser furo python3-breathe"

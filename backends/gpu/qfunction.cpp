@@ -85,6 +85,11 @@ std::string text_of(CeedQFunction qf, const jit::Source &source, const std::stri
 
 }  // namespace
 
+std::string kernel_text(CeedQFunction qf) {
+  const jit::Source source = jit::Source::of(qf);
+  return text_of(qf, source, jit::flatten(source));
+}
+
 PointFunction::PointFunction(Device &device, CeedQFunction qf) : device_(&device), qf_(qf) {
   const jit::Source source = jit::Source::of(qf);
   const std::string function = jit::flatten(source);

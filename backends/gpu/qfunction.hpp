@@ -6,12 +6,17 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "basis.hpp"
 #include "device.hpp"
 
 namespace hg::gpu {
+
+/// The text of a QFunction's kernel, hg_qfunction, after what a driver says first. Throws jit::NoSource where it came
+/// without text, jit::NotCompiled where that is not there.
+std::string kernel_text(CeedQFunction qf);
 
 /// A QFunction that was compiled. It may read its context; what it writes to it is not seen on the host.
 class PointFunction {

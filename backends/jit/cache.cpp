@@ -202,6 +202,31 @@ void *Cache::library(const Compiler &compiler, const Request &request, std::stri
   }
 }
 
+// A file is the code and its digest, so that one that was cut short is seen.
+std::string Cache::code(const std::string &request, const std::function<std::string()> &make) const {
+  const std::string name = digest(request);
+  const fs::path file = folder_ / (name + ".bin");
+  const std::size_t digest_size = name.size();
+  const auto stored = [&] {
+    std::string text = text_in(file);
+    if (text.size() < digest_size) return std::string();
+    const std::string own = text.substr(text.size() - digest_size);
+    text.resize(text.size() - digest_size);
+    return digest(text) == own ? text : std::string();
+  };
+  if (std::string code = stored(); !code.empty()) {
+    ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0);  // was used now
+    return code;
+  }
+  const Lock one_process(folder_ / (name + ".lock"));
+  if (std::string code = stored(); !code.empty()) return code;
+  std::string code = make();
+  ::unlink(file.c_str());
+  keep(file.filename(), code + digest(code));
+  trim();
+  return code;
+}
+
 void Cache::compile(const Compiler &compiler, const Request &request, const std::string &name,
                     std::string *said) const {
   const Lock one_process(folder_ / (name + ".lock"));
@@ -236,7 +261,7 @@ void Cache::trim() const {
   std::uintmax_t total = 0;
   std::error_code gone;  // another process may be at the same work
   for (const auto &found : fs::directory_iterator(folder_, gone)) {
-    if (found.path().extension() != ".so") continue;
+    if (found.path().extension() != ".so" && found.path().extension() != ".bin") continue;
     const auto size_of = [&](const fs::path &file) {
       const std::uintmax_t size = fs::file_size(file, gone);
       return gone ? 0 : size;
@@ -247,7 +272,7 @@ void Cache::trim() const {
   }
   std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) { return a.used < b.used; });
   for (std::size_t i = 0; i + 1 < entries.size() && total > largest_; i++) {  // the newest is about to be loaded
-    for (const char *extension : {".so", ".cpp", ".txt"}) fs::remove(with(entries[i].library, extension), gone);
+    for (const char *extension : {".so", ".bin", ".cpp", ".txt"}) fs::remove(with(entries[i].library, extension), gone);
     total -= entries[i].size;
   }
 }

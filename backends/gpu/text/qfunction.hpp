@@ -10,7 +10,7 @@ constexpr int vector_length = HG_VECTOR_LENGTH;
 constexpr int input_sizes[] = HG_INPUT_SIZES, output_sizes[] = HG_OUTPUT_SIZES;
 
 template <int n>
-constexpr int total(const int (&sizes)[n]) {
+HG_DEVICE constexpr int total(const int (&sizes)[n]) {
   int sum = 0;
   for (int i = 0; i < n; i++) sum += sizes[i];
   return sum;

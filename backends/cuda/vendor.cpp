@@ -1,0 +1,61 @@
+#include "vendor.hpp"
+
+namespace hg::cuda {
+
+namespace {
+
+constexpr const char *driver_files[] = {"libcuda.so.1"};
+constexpr const char *compiler_files[] = {"libnvrtc.so",
+                                          "libnvrtc.so.13",
+                                          "libnvrtc.so.12",
+                                          "libnvrtc.so.11.2",
+                                          "/usr/local/cuda/lib64/libnvrtc.so",
+                                          "/usr/local/cuda/lib/libnvrtc.so",
+                                          "/usr/local/cuda/lib/libnvrtc.so.13"};
+constexpr const char *driver_names[] = {
+    "cuInit",           "cuDeviceGetCount",     "cuDeviceGetName",      "cuDeviceGetAttribute", "cuMemAlloc_v2",
+    "cuMemFree_v2",     "cuMemcpyHtoDAsync_v2", "cuMemcpyDtoHAsync_v2", "cuMemcpyDtoDAsync_v2", "cuStreamSynchronize",
+    "cuModuleLoadData", "cuModuleUnload",       "cuModuleGetFunction",  "cuLaunchKernel"};
+constexpr const char *compiler_names[] = {"nvrtcVersion",           "nvrtcCreateProgram",  "nvrtcCompileProgram",
+                                          "nvrtcGetProgramLogSize", "nvrtcGetProgramLog",  "nvrtcGetCUBINSize",
+                                          "nvrtcGetCUBIN",          "nvrtcDestroyProgram", "nvrtcGetErrorString"};
+
+std::string error(const gpu::VendorLibrary &driver, int code) {
+  const auto text_of = reinterpret_cast<int (*)(int, const char **)>(driver.symbol("cuGetErrorString"));
+  const char *text = nullptr;
+  return text_of(code, &text) == 0 && text != nullptr ? text : "error " + std::to_string(code);
+}
+
+/// The device's own context, which the CUDA runtime uses, too.
+int make_current(const gpu::VendorLibrary &driver, int device) {
+  const auto retain = reinterpret_cast<int (*)(void **, int)>(driver.symbol("cuDevicePrimaryCtxRetain"));
+  const auto set_current = reinterpret_cast<int (*)(void *)>(driver.symbol("cuCtxSetCurrent"));
+  static void *const context = [&] {
+    void *of_device = nullptr;
+    return retain(&of_device, device) == 0 ? of_device : nullptr;
+  }();
+  constexpr int invalid_context = 201;
+  return context == nullptr ? invalid_context : set_current(context);
+}
+
+std::vector<std::string> options(const gpu::DriverCalls &calls, int device) {
+  constexpr int compute_capability_major = 75, compute_capability_minor = 76;
+  int major = 0, minor = 0;
+  calls.attribute(&major, compute_capability_major, device);
+  calls.attribute(&minor, compute_capability_minor, device);
+  return {"--gpu-architecture=sm_" + std::to_string(major) + std::to_string(minor), "--std=c++17", "-default-device"};
+}
+
+}  // namespace
+
+const gpu::Vendor vendor{.name = "CUDA",
+                         .driver_files = driver_files,
+                         .compiler_files = compiler_files,
+                         .driver_names = driver_names,
+                         .compiler_names = compiler_names,
+                         .attributes = {.max_threads = 1, .shared_per_block = 8, .warp_size = 10, .num_processors = 16},
+                         .error = error,
+                         .make_current = make_current,
+                         .options = options};
+
+}  // namespace hg::cuda

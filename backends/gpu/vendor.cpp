@@ -1,0 +1,234 @@
+#include "vendor.hpp"
+
+#include <dlfcn.h>
+
+#include <cstring>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <new>
+
+#include "../jit/cache.hpp"
+#include "texts.hpp"
+
+namespace hg::gpu {
+
+VendorLibrary::VendorLibrary(std::span<const char *const> files) {
+  for (const char *file : files) {
+    library_ = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    file_ = file;
+    if (library_ != nullptr) return;
+  }
+  throw DeviceError(std::string("the library ") + files.front() + " is not there");
+}
+
+void *VendorLibrary::symbol(const char *name) const {
+  void *address = ::dlsym(library_, name);
+  if (address == nullptr) throw DeviceError("the library " + file_ + " has no function " + name);
+  return address;
+}
+
+void VendorLibrary::copy(void *to, const void *from, std::size_t bytes) {
+  std::memcpy(to, from, bytes);
+}
+
+VendorCompiler::VendorCompiler(const Vendor &vendor)
+    : vendor_(vendor), calls_(VendorLibrary(vendor.compiler_files).calls<CompilerCalls>(vendor.compiler_names)) {
+  int major = 0, minor = 0;
+  calls_.version(&major, &minor);
+  version_ = std::to_string(major) + '.' + std::to_string(minor);
+}
+
+std::string VendorCompiler::compile(const std::string &name, const std::string &text,
+                                    const std::vector<std::string> &options, std::string *log) const {
+  std::string all = std::string(vendor_.name) + ' ' + version_ + '\n';
+  for (const auto &option : options) all += option + '\n';
+  try {
+    return jit::Cache().code(all + text, [&] { return compile_now(name, text, options, log); });
+  } catch (const jit::NotCompiled &) {
+    return compile_now(name, text, options, log);  // nothing can be kept
+  }
+}
+
+std::string VendorCompiler::compile_now(const std::string &name, const std::string &text,
+                                        const std::vector<std::string> &options, std::string *log) const {
+  void *program = nullptr;
+  const std::string whole = jit::text_of(texts, "vendors.hpp") + text;
+  const auto check = [&](int code, const std::string &what) {
+    if (code == 0) return;
+    if (program != nullptr) calls_.destroy(&program);
+    throw DeviceError(what + ": " + calls_.error(code));
+  };
+  check(calls_.create(&program, whole.c_str(), (name + ".cu").c_str(), 0, nullptr, nullptr), "'" + name + "'");
+  std::vector<const char *> words;
+  for (const auto &option : options) words.push_back(option.c_str());
+  const int code = calls_.compile(program, static_cast<int>(words.size()), words.data());
+  std::size_t bytes = 0;
+  std::string said;
+  if (calls_.log_size(program, &bytes) == 0 && bytes > 1) {
+    said.resize(bytes);
+    calls_.log(program, said.data());
+    said.resize(std::strlen(said.c_str()));
+  }
+  if (log != nullptr) *log = said;
+  check(code, "'" + name + "' is not compiled: the compiler refuses it:\n" + said);
+  check(calls_.code_size(program, &bytes), "'" + name + "'");
+  std::string compiled(bytes, '\0');
+  check(calls_.code(program, compiled.data()), "'" + name + "'");
+  calls_.destroy(&program);
+  return compiled;
+}
+
+namespace {
+
+class VendorDriver : public Driver {
+ public:
+  explicit VendorDriver(const Vendor &vendor);
+
+  const Properties &properties() const override { return properties_; }
+  void *allocate(std::size_t bytes) override;
+  void free(void *memory) noexcept override;
+  void copy_to_device(void *to, const void *from, std::size_t bytes) override;
+  void copy_to_host(void *to, const void *from, std::size_t bytes) override;
+  void copy(void *to, const void *from, std::size_t bytes) override;
+  void set_stream(void *stream) override { stream_ = stream; }
+  std::unique_ptr<Module> compile(const std::string &name, const std::string &text) override;
+  void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) override;
+
+ private:
+  friend class VendorModule;
+  void check(int code, const char *what) const {
+    if (code != 0) throw DeviceError(std::string(vendor_.name) + ": " + what + ": " + vendor_.error(library_, code));
+  }
+  void make_current() const { check(vendor_.make_current(library_, device_), "the device cannot be used"); }
+
+  const Vendor &vendor_;
+  VendorLibrary library_;
+  DriverCalls calls_;
+  VendorCompiler compiler_;
+  Properties properties_;
+  std::vector<std::string> options_;
+  int device_ = 0;
+  void *stream_ = nullptr;
+};
+
+class VendorModule : public Module {
+ public:
+  VendorModule(const VendorDriver &driver, std::string name, const std::string &code)
+      : driver_(driver), name_(std::move(name)) {
+    driver_.check(driver_.calls_.load(&module_, code.data()), ("'" + name_ + "' cannot be loaded").c_str());
+  }
+  VendorModule(const VendorModule &) = delete;
+  VendorModule &operator=(const VendorModule &) = delete;
+  ~VendorModule() override { driver_.calls_.unload(module_); }
+  Kernel kernel(const char *name) override {
+    Kernel kernel;
+    driver_.check(driver_.calls_.function(&kernel.handle, module_, name),
+                  ("'" + name_ + "' has no kernel '" + name + "'").c_str());
+    return kernel;
+  }
+
+ private:
+  const VendorDriver &driver_;
+  std::string name_;
+  void *module_ = nullptr;
+};
+
+VendorDriver::VendorDriver(const Vendor &vendor)
+    : vendor_(vendor),
+      library_(vendor.driver_files),
+      calls_(library_.calls<DriverCalls>(vendor.driver_names)),
+      compiler_(vendor) {
+  int count = 0;
+  check(calls_.init(0), "it does not start");
+  check(calls_.count_devices(&count), "devices cannot be counted");
+  if (count == 0) throw DeviceError(std::string(vendor.name) + ": there is no device");
+  make_current();
+  char name[256] = "";
+  check(calls_.name(name, sizeof name - 1, device_), "the device has no name");
+  const auto attribute = [&](int number) {
+    int value = 0;
+    check(calls_.attribute(&value, number, device_), "the device does not say what it is");
+    return value;
+  };
+  properties_ = {.name = name,
+                 .warp_size = attribute(vendor.attributes.warp_size),
+                 .max_threads = attribute(vendor.attributes.max_threads),
+                 .shared_per_block = static_cast<std::size_t>(attribute(vendor.attributes.shared_per_block)),
+                 .num_processors = attribute(vendor.attributes.num_processors)};
+  options_ = vendor.options(calls_, device_);
+}
+
+void *VendorDriver::allocate(std::size_t bytes) {
+  void *memory = nullptr;
+  make_current();
+  const int code = calls_.allocate(&memory, bytes == 0 ? 1 : bytes);
+  constexpr int out_of_memory = 2;  // in both
+  if (code == out_of_memory) throw std::bad_alloc();
+  check(code, "memory cannot be allocated");
+  return memory;
+}
+
+void VendorDriver::free(void *memory) noexcept {
+  vendor_.make_current(library_, device_);
+  calls_.free(memory);
+}
+
+void VendorDriver::copy_to_device(void *to, const void *from, std::size_t bytes) {
+  if (bytes == 0) return;
+  make_current();
+  check(calls_.to_device(to, from, bytes, stream_), "a copy to the device failed");
+  check(calls_.synchronize(stream_), "a copy to the device failed");  // `from` may change when this returns
+}
+
+void VendorDriver::copy_to_host(void *to, const void *from, std::size_t bytes) {
+  if (bytes == 0) return;
+  make_current();
+  check(calls_.to_host(to, from, bytes, stream_), "a copy to the host failed");
+  check(calls_.synchronize(stream_), "work on the device failed");
+}
+
+void VendorDriver::copy(void *to, const void *from, std::size_t bytes) {
+  if (bytes == 0) return;
+  make_current();
+  check(calls_.copy(to, from, bytes, stream_), "a copy on the device failed");
+}
+
+std::unique_ptr<Module> VendorDriver::compile(const std::string &name, const std::string &text) {
+  make_current();
+  return std::make_unique<VendorModule>(*this, name, compiler_.compile(name, text, options_));
+}
+
+void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, std::size_t) {
+  if (launch.num_blocks > std::numeric_limits<int>::max()) {
+    throw DeviceError(std::string(vendor_.name) + ": a kernel of " + std::to_string(launch.num_blocks) +
+                      " blocks; at most 2147483647 are possible");
+  }
+  make_current();
+  void *arguments[] = {const_cast<void *>(job)};
+  check(calls_.launch(kernel.handle, static_cast<unsigned>(launch.num_blocks), 1, 1,
+                      static_cast<unsigned>(launch.num_threads), 1, 1, static_cast<unsigned>(launch.shared_bytes),
+                      stream_, arguments, nullptr),
+        "a kernel cannot be launched");
+}
+
+}  // namespace
+
+std::shared_ptr<Driver> make_driver(const Vendor &vendor) {
+  return std::make_shared<VendorDriver>(vendor);
+}
+
+int score_of(const Vendor &vendor, const char **reason) {
+  static std::mutex mutex;
+  static std::map<std::string, std::string> reasons;  // they are pointed to
+  const std::scoped_lock one_thread(mutex);
+  try {
+    make_driver(vendor);
+    return 1;
+  } catch (const DeviceError &error) {
+    *reason = (reasons[vendor.name] = error.what()).c_str();
+    return 0;
+  }
+}
+
+}  // namespace hg::gpu

@@ -1,0 +1,111 @@
+/// @file
+/// CUDA and HIP: two sets of names for the same calls. Their libraries are loaded when the program runs, so that what
+/// uses them is built, and starts, where there are none.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "driver.hpp"
+
+namespace hg::gpu {
+
+/// A library that is loaded by one of several names, and stays loaded as long as the process.
+class VendorLibrary {
+ public:
+  /// Throws DeviceError where none of these files is there, or a symbol is missing.
+  explicit VendorLibrary(std::span<const char *const> files);
+  void *symbol(const char *name) const;
+  /// A struct of function pointers, by their names in the same order.
+  template <typename Calls>
+  Calls calls(std::span<const char *const> names) const {
+    std::array<void *, sizeof(Calls) / sizeof(void *)> found;
+    for (std::size_t i = 0; i < found.size(); i++) found[i] = symbol(names[i]);
+    Calls calls;
+    static_assert(sizeof found == sizeof calls);
+    copy(&calls, found.data(), sizeof calls);
+    return calls;
+  }
+
+ private:
+  static void copy(void *to, const void *from, std::size_t bytes);
+  void *library_ = nullptr;
+  std::string file_;
+};
+
+/// Calls of the driver, which both vendors have with these arguments; 0 is success.
+struct DriverCalls {
+  int (*init)(unsigned flags);
+  int (*count_devices)(int *count);
+  int (*name)(char *name, int length, int device);
+  int (*attribute)(int *value, int attribute, int device);
+  int (*allocate)(void **memory, std::size_t bytes);
+  int (*free)(void *memory);
+  int (*to_device)(void *to, const void *from, std::size_t bytes, void *stream);
+  int (*to_host)(void *to, const void *from, std::size_t bytes, void *stream);
+  int (*copy)(void *to, const void *from, std::size_t bytes, void *stream);
+  int (*synchronize)(void *stream);
+  int (*load)(void **module, const void *code);
+  int (*unload)(void *module);
+  int (*function)(void **function, void *module, const char *name);
+  int (*launch)(void *function, unsigned grid_x, unsigned grid_y, unsigned grid_z, unsigned block_x, unsigned block_y,
+                unsigned block_z, unsigned shared_bytes, void *stream, void **arguments, void **extra);
+};
+/// The same of the compiler.
+struct CompilerCalls {
+  int (*version)(int *major, int *minor);
+  int (*create)(void **program, const char *text, const char *name, int num_headers, const char *const *headers,
+                const char *const *names);
+  int (*compile)(void *program, int num_options, const char *const *options);
+  int (*log_size)(void *program, std::size_t *bytes);
+  int (*log)(void *program, char *log);
+  int (*code_size)(void *program, std::size_t *bytes);
+  int (*code)(void *program, char *code);
+  int (*destroy)(void **program);
+  const char *(*error)(int code);
+};
+
+/// What tells one vendor from the other.
+struct Vendor {
+  const char *name;
+  std::span<const char *const> driver_files, compiler_files;  ///< of which the first that is there is taken
+  std::span<const char *const> driver_names, compiler_names;  ///< of DriverCalls and CompilerCalls
+  struct {
+    int max_threads, shared_per_block, warp_size, num_processors;
+  } attributes;  ///< numbers of a device's properties
+  /// What an error of the driver means.
+  std::string (*error)(const VendorLibrary &driver, int code);
+  /// Makes a device the one that this thread's calls are for.
+  int (*make_current)(const VendorLibrary &driver, int device);
+  /// The compiler's options for a device.
+  std::vector<std::string> (*options)(const DriverCalls &calls, int device);
+};
+
+/// A vendor's compiler, which needs no device.
+class VendorCompiler {
+ public:
+  explicit VendorCompiler(const Vendor &vendor);
+  /// The code of a text, from the cache on disk where it is there. `log`: what the compiler said, empty where it was
+  /// not asked; may be NULL. Throws DeviceError, with its messages.
+  std::string compile(const std::string &name, const std::string &text, const std::vector<std::string> &options,
+                      std::string *log = nullptr) const;
+
+ private:
+  std::string compile_now(const std::string &name, const std::string &text, const std::vector<std::string> &options,
+                          std::string *log) const;
+
+  const Vendor &vendor_;
+  CompilerCalls calls_;
+  std::string version_;
+};
+
+/// The first device of a vendor. Throws DeviceError where there is none.
+std::shared_ptr<Driver> make_driver(const Vendor &vendor);
+/// For CeedBackend::score: 0 where make_driver() fails, and why.
+int score_of(const Vendor &vendor, const char **reason);
+
+}  // namespace hg::gpu

@@ -1,0 +1,47 @@
+#include "vendor.hpp"
+
+namespace hg::hip {
+
+namespace {
+
+constexpr const char *driver_files[] = {"libamdhip64.so", "libamdhip64.so.7", "libamdhip64.so.6", "libamdhip64.so.5"};
+/// The compiler is a library of its own in newer versions.
+constexpr const char *compiler_files[] = {"libhiprtc.so",     "libhiprtc.so.7",   "libhiprtc.so.6",
+                                          "libamdhip64.so.6", "libamdhip64.so.5", "libamdhip64.so"};
+constexpr const char *driver_names[] = {
+    "hipInit",           "hipGetDeviceCount",  "hipDeviceGetName",     "hipDeviceGetAttribute", "hipMalloc",
+    "hipFree",           "hipMemcpyHtoDAsync", "hipMemcpyDtoHAsync",   "hipMemcpyDtoDAsync",    "hipStreamSynchronize",
+    "hipModuleLoadData", "hipModuleUnload",    "hipModuleGetFunction", "hipModuleLaunchKernel"};
+constexpr const char *compiler_names[] = {"hiprtcVersion",           "hiprtcCreateProgram",  "hiprtcCompileProgram",
+                                          "hiprtcGetProgramLogSize", "hiprtcGetProgramLog",  "hiprtcGetCodeSize",
+                                          "hiprtcGetCode",           "hiprtcDestroyProgram", "hiprtcGetErrorString"};
+
+std::string error(const gpu::VendorLibrary &driver, int code) {
+  const auto text_of = reinterpret_cast<const char *(*)(int)>(driver.symbol("hipGetErrorString"));
+  const char *text = text_of(code);
+  return text != nullptr ? text : "error " + std::to_string(code);
+}
+
+int make_current(const gpu::VendorLibrary &driver, int device) {
+  return reinterpret_cast<int (*)(int)>(driver.symbol("hipSetDevice"))(device);
+}
+
+/// The compiler takes the current device's architecture.
+std::vector<std::string> options(const gpu::DriverCalls &, int) {
+  return {"-std=c++17", "-O3"};
+}
+
+}  // namespace
+
+const gpu::Vendor vendor{
+    .name = "HIP",
+    .driver_files = driver_files,
+    .compiler_files = compiler_files,
+    .driver_names = driver_names,
+    .compiler_names = compiler_names,
+    .attributes = {.max_threads = 56, .shared_per_block = 74, .warp_size = 87, .num_processors = 63},
+    .error = error,
+    .make_current = make_current,
+    .options = options};
+
+}  // namespace hg::hip
