@@ -28,6 +28,9 @@ struct Backend {
   int num_tests = 0;   ///< tests that ran on it
 };
 
+/// The reason of a backend that is not used because it begins with what the environment's HG_TEST_WITHOUT says.
+inline const std::string left_out = "left out by HG_TEST_WITHOUT";
+
 /// All listed resources, in the order of their names. Each is first opened in a process of its own, so that a backend
 /// which ends the process is only one that does not open. The list is made by the first call.
 std::vector<Backend> &backends();

@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# On a machine with a GPU: are its backends right, and how fast are they?
+# The last thing printed is a table; the exit status is 0 if every test passed.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+usage() {
+  cat <<END
+usage: tests/device/run.sh [options]
+  --backend cuda|hip|emu  whose backends: /gpu/<backend>/... (default: cuda)
+  --out DIR               where JSON records and logs go (default: build/device/results)
+  --prefix DIR            where GoogleTest, fmt, CLI11, nlohmann-json and xxhash are (default: build/device/prefix, which
+                          pack.sh fills; where it is not there, the system's)
+  --dofs N                size of the timed problems (default: 2e7)
+  --degrees A-B           their degrees (default: 1-8; at points 1-3)
+  -j N                    parallel jobs (default: all cores)
+END
+}
+
+backend=cuda out=build/device/results prefix=build/device/prefix dofs=2e7 degrees=1-8 jobs=$(nproc)
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --backend) backend=$2; shift ;;
+    --out) out=$2; shift ;;
+    --prefix) prefix=$2; shift ;;
+    --dofs) dofs=$2; shift ;;
+    --degrees) degrees=$2; shift ;;
+    -j) jobs=$2; shift ;;
+    -h|--help) usage; exit 0 ;;
+    *) echo "run.sh: unknown option '$1'" >&2; usage >&2; exit 2 ;;
+  esac
+  shift
+done
+case "$backend" in cuda|hip|emu) ;; *) echo "run.sh: --backend is '$backend'; expected cuda, hip or emu" >&2; exit 2 ;; esac
+
+started=$SECONDS
+step() { printf '\n== %s (%d s)\n' "$*" $((SECONDS - started)); }
+mkdir -p "$out"
+build=build/device/build
+export CEED_CACHE_DIR=$PWD/build/device/compiled CEED_JIT_ERROR_ON_FAILURE=1
+# The vendor's compiler where it is installed beside the system's libraries.
+export LD_LIBRARY_PATH=${LD_LIBRARY_PATH:+$LD_LIBRARY_PATH:}/usr/local/cuda/lib64:/opt/rocm/lib
+
+step "Machine"
+date -u +'%F %H:%M UTC'
+nvidia-smi --query-gpu=name,driver_version,memory.total --format=csv,noheader 2>/dev/null || true
+lscpu 2>/dev/null | sed -n 's/^Model name: *//p' || true
+
+step "Build in $build"
+where=()
+[ ! -d "$prefix" ] || where=(-DCMAKE_PREFIX_PATH="$PWD/$prefix/usr;$PWD/$prefix/usr/lib/$(uname -m)-linux-gnu"
+                             -DCMAKE_INCLUDE_PATH="$PWD/$prefix/usr/include")
+cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DHONEYGUIDE_MECHANICS=OFF "${where[@]}" \
+  > "$out/configure.log" 2>&1 || { tail -20 "$out/configure.log"; exit 1; }
+cmake --build "$build" -j "$jobs" --target ceed_$backend ceed-info ceed-conformance bps-kernel device-bandwidth \
+  > "$out/build.log" 2>&1 || { tail -30 "$out/build.log"; exit 1; }
+
+step "Backends"
+"$build/bin/ceed-info" | grep -A3 "^/gpu/$backend" || true
+mapfile -t resources < <("$build/bin/ceed-info" --json - | python3 -c "
+import json, sys
+for b in json.load(sys.stdin)['backends']:
+    if b['resource'].startswith('/gpu/$backend/') and b['available']: print(b['resource'])")
+[ ${#resources[@]} -gt 0 ] || { echo "no backend /gpu/$backend/... works here"; exit 1; }
+
+status=0
+suite=$(find "$build" -name ceed-conformance -type f -perm -u+x | head -1)
+for resource in "${resources[@]}"; do
+  step "Conformance: $resource"
+  log=$out/conformance$(tr / _ <<<"$resource").log
+  "$suite" --ceed "$resource" > "$log" 2>&1 || status=1
+  grep -E '^\[  (PASSED|FAILED)' "$log" || { tail -5 "$log"; status=1; }
+done
+
+sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null || true)
+if [ "$backend" = cuda ] && [ -n "$sanitizer" ]; then
+  step "compute-sanitizer"
+  for tool in memcheck racecheck initcheck; do
+    echo "$tool"
+    "$sanitizer" --tool $tool --error-exitcode 1 "$suite" --ceed "${resources[0]}" \
+      --gtest_filter='*Vector*:*OperatorTest*' > "$out/$tool.log" 2>&1 || status=1
+    tail -1 "$out/$tool.log"
+  done
+fi
+
+step "Copies"
+"$build/bin/device-bandwidth" "${resources[0]}" --json "$out/bandwidth.json"
+
+for resource in "${resources[@]}"; do
+  name=$(tr / _ <<<"$resource")
+  step "Bake-off problems: $resource"
+  "$build/bin/bps-kernel" --ceed "$resource" --problem all --degree "$degrees" --dofs "$dofs" --reps 5 \
+    --json "$out/bps$name.json" > "$out/bps$name.log" 2>&1 || { tail -5 "$out/bps$name.log"; status=1; }
+  "$build/bin/bps-kernel" --ceed "$resource" --problem bp1,bp2,bp3,bp4 --degree 1-3 --points 8,27 --dofs "$dofs" \
+    --reps 5 --json "$out/points$name.json" > "$out/points$name.log" 2>&1 || { tail -5 "$out/points$name.log"; status=1; }
+done
+
+step "Table"
+python3 tests/device/table.py "$out"
+exit $status
