@@ -156,12 +156,12 @@ int destroy(CeedBasis basis) {
 
 /// The vectors of an application: u is read unless weights are wanted, v is written or added to.
 template <typename F>
-void with_arrays(CeedEvalMode mode, CeedVector u, CeedVector v, CeedSize num_written, F &&f) {
+void with_arrays(CeedEvalMode mode, CeedVector u, CeedVector v, bool add, F &&f) {
   std::unique_ptr<host::Reader> from;
   if (mode != CEED_EVAL_WEIGHT) from = std::make_unique<host::Reader>(u, CEED_MEM_DEVICE);
-  CeedSize length = 0;
-  chk(CeedVectorGetLength(v, &length));
-  host::Writer to(v, length == num_written ? host::Writer::write_only : host::Writer::read_write, CEED_MEM_DEVICE);
+  bool has_values = add;  // what lies beyond the elements stays
+  if (!add) chk(CeedVectorHasValidArray(v, &has_values));
+  host::Writer to(v, has_values ? host::Writer::read_write : host::Writer::write_only, CEED_MEM_DEVICE);
   f(from ? from->data() : nullptr, to.data());
   to.release();
   if (from) from->release();
@@ -170,14 +170,13 @@ void with_arrays(CeedEvalMode mode, CeedVector u, CeedVector v, CeedSize num_wri
 void apply_at(CeedBasis basis, const Points &points, CeedInt num_elem, const CeedScalar *table,
               CeedTransposeMode t_mode, CeedEvalMode mode, CeedVector u, CeedVector v, bool add) {
   const BasisTables &tables = tables_of(basis);
-  CeedSize num_written = 0;
   if (!add && t_mode == CEED_TRANSPOSE) {
-    num_written = static_cast<CeedSize>(num_elem) * tables.num_comp() * tables.num_nodes();
     CeedSize length = 0;
     chk(CeedVectorGetLength(v, &length));
-    if (length > num_written) chk(CeedVectorSetValue(v, 0.0));
+    const bool is_longer = length > static_cast<CeedSize>(num_elem) * tables.num_comp() * tables.num_nodes();
+    if (is_longer) chk(CeedVectorSetValue(v, 0.0));
   }
-  with_arrays(mode, u, v, num_written, [&](const CeedScalar *from, CeedScalar *to) {
+  with_arrays(mode, u, v, add, [&](const CeedScalar *from, CeedScalar *to) {
     if (mode == CEED_EVAL_WEIGHT) {
       tables.weights(points, to);
     } else if (t_mode == CEED_NOTRANSPOSE) {

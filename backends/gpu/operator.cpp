@@ -68,7 +68,7 @@ void StagedOperator::make_points(const CeedProgram &program) {
 }
 
 void StagedOperator::make(const CeedProgram &program) {
-  points_epoch_ = program.points_epoch;
+  points_epoch_ = -1;  // until all is made
   sources_.clear();
   sinks_.clear();
   inputs_.clear();
@@ -83,6 +83,7 @@ void StagedOperator::make(const CeedProgram &program) {
     tables_of(program.spaces[f.space].basis).weights(points_, inputs_.back().as<CeedScalar>());
   }
   for (CeedInt o = 0; o < program.num_outputs; o++) outputs_.push_back(field(program.outputs[o]));
+  points_epoch_ = program.points_epoch;
 }
 
 /// The QFunction's inputs from the E-vectors of the sources; those that are not evaluated are in them as they are.

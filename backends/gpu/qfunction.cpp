@@ -108,13 +108,14 @@ void *PointFunction::context() {
   std::size_t size = 0;
   int code = CeedQFunctionContextGetState(context, &state);
   if (code == CEED_ERROR_SUCCESS) code = CeedQFunctionContextGetContextSize(context, &size);
-  if (code == CEED_ERROR_SUCCESS && (!context_ || state != context_state_)) {
+  if (code == CEED_ERROR_SUCCESS && (!context_ || context != uploaded_ || state != context_state_)) {
     const void *data = nullptr;
     code = CeedQFunctionContextGetDataRead(context, CEED_MEM_HOST, &data);
     if (code == CEED_ERROR_SUCCESS) {
       if (!context_ || context_.num_bytes() != size) context_ = device_->allocate(size);
       device_->driver().copy_to_device(context_.as<void>(), data, size);
       context_state_ = state;
+      uploaded_ = context;
       code = CeedQFunctionContextRestoreDataRead(context, &data);
     }
   }

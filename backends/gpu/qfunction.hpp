@@ -38,7 +38,8 @@ class PointFunction {
   CeedInt vector_length_ = 1;
   bool may_fail_ = true;
   Buffer arrays_, context_, failed_;
-  std::vector<const void *> pointers_;  ///< what arrays_ holds
+  std::vector<const void *> pointers_;       ///< what arrays_ holds
+  CeedQFunctionContext uploaded_ = nullptr;  ///< whose data context_ has; compared only
   std::uint64_t context_state_ = 0;
 };
 

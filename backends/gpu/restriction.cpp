@@ -159,11 +159,10 @@ int apply(CeedElemRestriction rstr, CeedInt first_block, CeedInt num_block, Ceed
     }
     const Nodes *nodes = &nodes_of(rstr);
     host::Reader from(u, CEED_MEM_DEVICE);
-    // What of an E-vector does not belong to elements stays, so it is no other than before.
-    CeedSize length = 0;
-    chk(CeedVectorGetLength(ru, &length));
-    const bool is_written_whole = t_mode == CEED_NOTRANSPOSE && length == nodes->e_size();
-    host::Writer to(ru, is_written_whole ? host::Writer::write_only : host::Writer::read_write, CEED_MEM_DEVICE);
+    // What of an E-vector does not belong to elements stays.
+    bool has_values = true;
+    if (t_mode == CEED_NOTRANSPOSE) chk(CeedVectorHasValidArray(ru, &has_values));
+    host::Writer to(ru, has_values ? host::Writer::read_write : host::Writer::write_only, CEED_MEM_DEVICE);
     if (t_mode == CEED_NOTRANSPOSE) {
       nodes->gather(from.data(), to.data());
     } else {

@@ -44,7 +44,8 @@ std::string VendorCompiler::compile(const std::string &name, const std::string &
   std::string all = std::string(vendor_.name) + ' ' + version_ + '\n';
   for (const auto &option : options) all += option + '\n';
   try {
-    return jit::Cache().code(all + text, [&] { return compile_now(name, text, options, log); });
+    return jit::Cache().code(all + jit::text_of(texts, "vendors.hpp") + text,
+                             [&] { return compile_now(name, text, options, log); });
   } catch (const jit::NotCompiled &) {
     return compile_now(name, text, options, log);  // nothing can be kept
   }
@@ -120,9 +121,13 @@ class VendorModule : public Module {
   }
   VendorModule(const VendorModule &) = delete;
   VendorModule &operator=(const VendorModule &) = delete;
-  ~VendorModule() override { driver_.calls_.unload(module_); }
+  ~VendorModule() override {
+    driver_.vendor_.make_current(driver_.library_, driver_.device_);
+    driver_.calls_.unload(module_);
+  }
   Kernel kernel(const char *name) override {
     Kernel kernel;
+    driver_.make_current();
     driver_.check(driver_.calls_.function(&kernel.handle, module_, name),
                   ("'" + name_ + "' has no kernel '" + name + "'").c_str());
     return kernel;
