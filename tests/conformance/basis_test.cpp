@@ -9,6 +9,19 @@ namespace hg::test {
 namespace {
 
 class BasisTest : public BackendTest {};
+TEST_P(BasisTest, WritesOutputsThatHaveNoValuesYet) {
+  Basis basis;
+  ok(CeedBasisCreateTensorH1Lagrange(ceed, 1, 1, 2, 2, CEED_GAUSS, basis.out()));
+  const Vector u = make_vector(ceed, Values{1, 1});
+  for (const CeedEvalMode mode : {CEED_EVAL_INTERP, CEED_EVAL_WEIGHT}) {
+    Vector v;
+    ok(CeedVectorCreate(ceed, 2, v.out()));
+    const CeedVector from = mode == CEED_EVAL_WEIGHT ? CEED_VECTOR_NONE : u.get();
+    ok(CeedBasisApply(basis, 1, CEED_NOTRANSPOSE, mode, from, v));
+    expect_close(values_of(v), Values{1, 1}, tolerance(2), "of ones");
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, BasisTest, testing::ValuesIn(usable_backends()), backend_name);
 
 constexpr CeedEvalMode modes[] = {CEED_EVAL_INTERP, CEED_EVAL_GRAD};
