@@ -2,6 +2,8 @@
 /// on the device.
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "../host/access.hpp"
@@ -29,6 +31,8 @@ struct Vector {
   CeedSize length;
   Place<host::Array> host;
   Place<Buffer> on_device;
+  std::recursive_mutex
+      mutex;  ///< a vector that is only read may be shared, and a copy is made by whoever wants it first
 
   std::size_t num_bytes() const { return static_cast<std::size_t>(length) * sizeof(CeedScalar); }
   bool has_values() const { return host.is_current || on_device.is_current; }
@@ -50,6 +54,7 @@ struct Vector {
 
   /// The array in a memory, with the vector's values.
   CeedScalar *read(CeedMemType mem_type) {
+    const std::scoped_lock one_thread(mutex);
     CeedScalar *array = allocate(mem_type);
     if (is_current(mem_type) || !has_values()) return array;
     if (mem_type == CEED_MEM_DEVICE) {
@@ -62,6 +67,7 @@ struct Vector {
   }
   /// The array in a memory, which alone will have the values.
   CeedScalar *write(CeedMemType mem_type, bool is_read) {
+    const std::scoped_lock one_thread(mutex);
     CeedScalar *array = is_read ? read(mem_type) : allocate(mem_type);
     host.is_current = mem_type == CEED_MEM_HOST;
     on_device.is_current = mem_type == CEED_MEM_DEVICE;
@@ -85,7 +91,7 @@ int create(CeedVector vec) {
   return wall(CeedVectorReturnCeed(vec), [&] {
     CeedSize length = 0;
     chk(CeedVectorGetLength(vec, &length));
-    auto vector = std::make_unique<Vector>(Vector{Device::of(CeedVectorReturnCeed(vec)), length, {}, {}});
+    std::unique_ptr<Vector> vector(new Vector{Device::of(CeedVectorReturnCeed(vec)), length, {}, {}, {}});
     chk(CeedVectorSetData(vec, vector.get()));
     vector.release();
   });
