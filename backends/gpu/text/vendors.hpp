@@ -10,6 +10,15 @@
 
 typedef decltype(static_cast<char *>(nullptr) - static_cast<char *>(nullptr)) ptrdiff_t;
 typedef int int32_t;
+#ifdef __CUDACC_RTC__  // the other compiler has these
+typedef signed char int8_t;
+typedef short int16_t;
+typedef long int64_t;
+typedef unsigned char uint8_t;
+typedef unsigned short uint16_t;
+typedef unsigned int uint32_t;
+typedef unsigned long uint64_t;
+#endif
 
 namespace hg::gpu {
 
