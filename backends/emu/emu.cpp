@@ -24,12 +24,7 @@ int score(const char **reason) {
   }
 }
 
-constexpr CeedBackend backend{.resource = "/gpu/emu/ref",
-                              .parent = "/cpu/self/ref/serial",
-                              .priority = CEED_MAX_BACKEND_PRIORITY,
-                              .aliases = nullptr,
-                              .score = score,
-                              .init = init};
+constexpr CeedBackend backend = gpu::stages("/gpu/emu/ref", CEED_MAX_BACKEND_PRIORITY, score, init);
 
 constexpr CeedPlugin plugin{.size = sizeof(CeedPlugin),
                             .api_version = CEED_PLUGIN_API_VERSION,

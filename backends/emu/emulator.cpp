@@ -139,9 +139,7 @@ std::unique_ptr<gpu::Module> Emulator::compile(const std::string &name, const st
       .options = {"-std=gnu++20", "-O1", "-w", "-fpermissive", "-ffp-contract=off", "-nostdinc++"},
       .depends_on = "emulator",
       .is_report_wanted = false};
-  const char *own = std::getenv("CEED_GEN_FLAGS");
-  std::istringstream words(own != nullptr ? own : "");
-  for (std::string word; words >> word;) request.options.push_back(word);
+  for (auto &flag : jit::flags_of_user()) request.options.push_back(std::move(flag));
   std::string said;
   try {
     return std::make_unique<Library>(name, jit::Cache().library(jit::Compiler::find(), request, &said));

@@ -29,7 +29,7 @@ struct Place {
   void *sanitizer = nullptr;
 };
 
-/// What begins when a place is reached, after arrived().
+/// Goes from one place to another, where arrived() comes next.
 void leave(Place &from, Place &to, [[maybe_unused]] bool for_good) {
 #if defined(__SANITIZE_ADDRESS__)
   __sanitizer_start_switch_fiber(for_good ? nullptr : &from.frames, to.bottom, to.size);

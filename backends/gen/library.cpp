@@ -75,9 +75,7 @@ std::vector<std::string> options_for(const host::Kernels &kernels, const Source 
   for (const auto &define : source.defines) {
     if (define[0] == '-') options.push_back(define);
   }
-  const char *own = std::getenv("CEED_GEN_FLAGS");
-  std::istringstream words(own != nullptr ? own : "");
-  for (std::string word; words >> word;) options.push_back(word);
+  for (auto &flag : jit::flags_of_user()) options.push_back(std::move(flag));
   return options;
 }
 

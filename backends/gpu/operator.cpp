@@ -38,8 +38,8 @@ class StagedOperator {
   Buffer field(const CeedProgramField &field) const {
     return device_.allocate(points_.facts().num_points * field.size * sizeof(CeedScalar));
   }
-  Side side(const CeedProgramSide &side) const {
-    Nodes nodes(device_, side.rstr, Nodes::Layout::elements);
+  Side side(CeedElemRestriction rstr) const {
+    Nodes nodes(device_, rstr, Nodes::Layout::elements);
     const std::size_t bytes = nodes.e_size() * sizeof(CeedScalar);
     return {std::move(nodes), device_.allocate(bytes)};
   }
@@ -62,9 +62,7 @@ void StagedOperator::make_points(const CeedProgram &program) {
   std::vector<CeedInt> counts(program.num_elem);
   for (CeedInt e = 0; e < program.num_elem; e++) counts[e] = map->offsets[e + 1] - map->offsets[e];
   points_ = Points(device_, program.num_elem, counts.data());
-  Nodes nodes(device_, program.points_rstr, Nodes::Layout::elements);
-  const std::size_t bytes = nodes.e_size() * sizeof(CeedScalar);
-  coordinates_ = std::make_unique<Side>(Side{std::move(nodes), device_.allocate(bytes)});
+  coordinates_ = std::make_unique<Side>(side(program.points_rstr));
 }
 
 void StagedOperator::make(const CeedProgram &program) {
@@ -74,8 +72,8 @@ void StagedOperator::make(const CeedProgram &program) {
   inputs_.clear();
   outputs_.clear();
   make_points(program);
-  for (CeedInt s = 0; s < program.num_sources; s++) sources_.push_back(side(program.sources[s]));
-  for (CeedInt t = 0; t < program.num_sinks; t++) sinks_.push_back(side(program.sinks[t]));
+  for (CeedInt s = 0; s < program.num_sources; s++) sources_.push_back(side(program.sources[s].rstr));
+  for (CeedInt t = 0; t < program.num_sinks; t++) sinks_.push_back(side(program.sinks[t].rstr));
   for (CeedInt i = 0; i < program.num_inputs; i++) {
     const CeedProgramField &f = program.inputs[i];
     inputs_.push_back(f.eval_mode == CEED_EVAL_NONE ? Buffer() : field(f));

@@ -20,6 +20,17 @@ void fill_operator_ops(CeedOperatorOps &ops);
 /// are those of the reference, which does what is not taken here.
 int init_stages(Ceed ceed, std::shared_ptr<Driver> driver, CeedBackendOps *ops);
 
+/// A backend in stages, for a plugin's list.
+constexpr CeedBackend stages(const char *resource, unsigned priority, decltype(CeedBackend::score) score,
+                             decltype(CeedBackend::init) init) {
+  return {.resource = resource,
+          .parent = "/cpu/self/ref/serial",
+          .priority = priority,
+          .aliases = nullptr,
+          .score = score,
+          .init = init};
+}
+
 /// The tables of the reference.
 const CeedBackendOps &parents_tables();
 

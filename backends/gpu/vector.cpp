@@ -172,11 +172,9 @@ int has_borrowed_array(CeedVector vec, CeedMemType mem_type, bool *has_borrowed_
   });
 }
 
-constexpr CeedMemType device_memory = CEED_MEM_DEVICE;
-
 int set_value(CeedVector vec, CeedScalar value) {
   return with(vec, [&](Vector &v) {
-    CeedScalar *w = v.write(device_memory, false);
+    CeedScalar *w = v.write(CEED_MEM_DEVICE, false);
     v.device.run("hg_set_value", v.length, VectorJob{.length = v.length, .a = value, .w = w});
   });
 }
@@ -192,38 +190,38 @@ int set_value_strided(CeedVector vec, CeedSize start, CeedSize stop, CeedSize st
                         .start = start,
                         .step = step,
                         .a = value,
-                        .w = v.write(device_memory, true)};
+                        .w = v.write(CEED_MEM_DEVICE, true)};
     v.device.run("hg_set_value", job.length, job);
   });
 }
 
 int copy(CeedVector vec, CeedVector vec_copy) {
   return with(vec_copy, [&](Vector &to) {
-    const CeedScalar *x = vector_of(vec).read(device_memory);
-    to.device.driver().copy(to.write(device_memory, false), x, to.num_bytes());
+    const CeedScalar *x = vector_of(vec).read(CEED_MEM_DEVICE);
+    to.device.driver().copy(to.write(CEED_MEM_DEVICE, false), x, to.num_bytes());
   });
 }
 
 int copy_strided(CeedVector vec, CeedSize start, CeedSize stop, CeedSize step, CeedVector vec_copy) {
   return with(vec_copy, [&](Vector &to) {
-    const CeedScalar *x = vector_of(vec).read(device_memory);
+    const CeedScalar *x = vector_of(vec).read(CEED_MEM_DEVICE);
     const VectorJob job{
-        .length = count(start, stop, step), .start = start, .step = step, .x = x, .w = to.write(device_memory, true)};
+        .length = count(start, stop, step), .start = start, .step = step, .x = x, .w = to.write(CEED_MEM_DEVICE, true)};
     to.device.run("hg_copy", job.length, job);
   });
 }
 
 int scale(CeedVector x, CeedScalar alpha) {
   return with(x, [&](Vector &v) {
-    v.device.run("hg_scale", v.length, VectorJob{.length = v.length, .a = alpha, .w = v.write(device_memory, true)});
+    v.device.run("hg_scale", v.length, VectorJob{.length = v.length, .a = alpha, .w = v.write(CEED_MEM_DEVICE, true)});
   });
 }
 
 int axpby(CeedVector y, CeedScalar alpha, CeedScalar beta, CeedVector x) {
   return with(y, [&](Vector &v) {
-    const CeedScalar *from = vector_of(x).read(device_memory);
+    const CeedScalar *from = vector_of(x).read(CEED_MEM_DEVICE);
     v.device.run("hg_axpby", v.length,
-                 VectorJob{.length = v.length, .a = alpha, .b = beta, .x = from, .w = v.write(device_memory, true)});
+                 VectorJob{.length = v.length, .a = alpha, .b = beta, .x = from, .w = v.write(CEED_MEM_DEVICE, true)});
   });
 }
 
@@ -233,8 +231,8 @@ int axpy(CeedVector y, CeedScalar alpha, CeedVector x) {
 
 int pointwise_mult(CeedVector w, CeedVector x, CeedVector y) {
   return with(w, [&](Vector &v) {
-    const CeedScalar *left = vector_of(x).read(device_memory), *right = vector_of(y).read(device_memory);
-    const VectorJob job{.length = v.length, .x = left, .y = right, .w = v.write(device_memory, false)};
+    const CeedScalar *left = vector_of(x).read(CEED_MEM_DEVICE), *right = vector_of(y).read(CEED_MEM_DEVICE);
+    const VectorJob job{.length = v.length, .x = left, .y = right, .w = v.write(CEED_MEM_DEVICE, false)};
     v.device.run("hg_pointwise_mult", v.length, job);
   });
 }
@@ -242,14 +240,14 @@ int pointwise_mult(CeedVector w, CeedVector x, CeedVector y) {
 int reciprocal(CeedVector vec) {
   return with(vec, [&](Vector &v) {
     v.device.run("hg_reciprocal", v.length,
-                 VectorJob{.length = v.length, .a = CEED_EPSILON, .w = v.write(device_memory, true)});
+                 VectorJob{.length = v.length, .a = CEED_EPSILON, .w = v.write(CEED_MEM_DEVICE, true)});
   });
 }
 
 int filter(CeedVector x, CeedScalar threshold) {
   return with(x, [&](Vector &v) {
     v.device.run("hg_filter", v.length,
-                 VectorJob{.length = v.length, .a = threshold, .w = v.write(device_memory, true)});
+                 VectorJob{.length = v.length, .a = threshold, .w = v.write(CEED_MEM_DEVICE, true)});
   });
 }
 
@@ -258,7 +256,7 @@ int norm(CeedVector vec, CeedNormType type, CeedScalar *norm) {
     constexpr CeedSize most_blocks = 1024, of_block = CeedSize{4} * Device::usual_threads;
     const CeedSize num_blocks = std::min(most_blocks, (v.length + of_block - 1) / of_block);
     const Buffer norms = v.device.allocate(num_blocks * sizeof(CeedScalar));
-    const NormJob job{.length = v.length, .type = type, .x = v.read(device_memory), .norms = norms.as<CeedScalar>()};
+    const NormJob job{.length = v.length, .type = type, .x = v.read(CEED_MEM_DEVICE), .norms = norms.as<CeedScalar>()};
     v.device.run("hg_norm",
                  Launch{.num_blocks = static_cast<std::uint64_t>(num_blocks),
                         .num_threads = Device::usual_threads,

@@ -28,10 +28,6 @@ void *VendorLibrary::symbol(const char *name) const {
   return address;
 }
 
-void VendorLibrary::copy(void *to, const void *from, std::size_t bytes) {
-  std::memcpy(to, from, bytes);
-}
-
 VendorCompiler::VendorCompiler(const Vendor &vendor)
     : vendor_(vendor), calls_(VendorLibrary(vendor.compiler_files).calls<CompilerCalls>(vendor.compiler_names)) {
   int major = 0, minor = 0;

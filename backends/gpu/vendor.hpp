@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -25,14 +26,10 @@ class VendorLibrary {
   Calls calls(std::span<const char *const> names) const {
     std::array<void *, sizeof(Calls) / sizeof(void *)> found;
     for (std::size_t i = 0; i < found.size(); i++) found[i] = symbol(names[i]);
-    Calls calls;
-    static_assert(sizeof found == sizeof calls);
-    copy(&calls, found.data(), sizeof calls);
-    return calls;
+    return std::bit_cast<Calls>(found);
   }
 
  private:
-  static void copy(void *to, const void *from, std::size_t bytes);
   void *library_ = nullptr;
   std::string file_;
 };

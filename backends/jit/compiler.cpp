@@ -83,6 +83,10 @@ Compiler::Outcome run(const std::vector<std::string> &command) {
 
 }  // namespace
 
+std::vector<std::string> flags_of_user() {
+  return words(std::getenv("CEED_GEN_FLAGS"));
+}
+
 Compiler Compiler::find() {
   for (const char *variable : {"CEED_CXX", "CXX"}) {
     std::vector<std::string> command = words(std::getenv(variable));

@@ -18,6 +18,9 @@ struct NoSource : NotCompiled {
   using NotCompiled::NotCompiled;
 };
 
+/// What the user adds to the options of whatever is compiled for the host: the words of CEED_GEN_FLAGS.
+std::vector<std::string> flags_of_user();
+
 /// A compiler with the interface of GCC's: GCC or clang.
 class Compiler {
  public:

@@ -3,7 +3,6 @@
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <string_view>
 
 #include "compiler.hpp"
 
@@ -12,31 +11,6 @@ namespace hg::jit {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// What a line includes.
-struct Include {
-  std::string name;  ///< empty: it includes nothing
-  bool is_quoted = false;
-};
-
-/// The words of a directive after `#`, or nothing.
-std::string_view directive(std::string_view line) {
-  const auto hash = line.find_first_not_of(" \t");
-  if (hash == std::string_view::npos || line[hash] != '#') return {};
-  const auto word = line.find_first_not_of(" \t", hash + 1);
-  return word == std::string_view::npos ? std::string_view() : line.substr(word);
-}
-
-Include included_by(std::string_view line) {
-  const std::string_view words = directive(line);
-  if (words.substr(0, 7) != "include") return {};
-  const auto begin = words.find_first_of("\"<");
-  if (begin == std::string_view::npos) return {};
-  const bool is_quoted = words[begin] == '"';
-  const auto end = words.find(is_quoted ? '"' : '>', begin + 1);
-  if (end == std::string_view::npos) return {};
-  return {std::string(words.substr(begin + 1, end - begin - 1)), is_quoted};
-}
 
 class Flattener {
  public:

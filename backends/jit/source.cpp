@@ -40,15 +40,10 @@ void read(const fs::path &file, const std::vector<fs::path> &roots, std::set<fs:
   all += file.string() + '\n' + text;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    const auto hash = line.find_first_not_of(" \t");
-    if (hash == std::string::npos || line[hash] != '#') continue;
-    const auto word = line.find_first_not_of(" \t", hash + 1);
-    if (word == std::string::npos || line.compare(word, 7, "include") != 0) continue;
-    const auto begin = line.find_first_of("\"<", word), end = line.find_first_of("\">", begin + 1);
-    if (begin == std::string::npos || end == std::string::npos) continue;
-    const fs::path name = line.substr(begin + 1, end - begin - 1);
-    if (line[begin] == '"') read(file.parent_path() / name, roots, seen, all);
-    for (const auto &root : roots) read(root / name, roots, seen, all);
+    const Include include = included_by(line);
+    if (include.name.empty()) continue;
+    if (include.is_quoted) read(file.parent_path() / include.name, roots, seen, all);
+    for (const auto &root : roots) read(root / include.name, roots, seen, all);
   }
 }
 
@@ -85,6 +80,24 @@ Source Source::of(CeedQFunction qf) {
   read(source.file, source.roots, seen, all);
   source.digest = jit::digest(all);
   return source;
+}
+
+std::string_view directive(std::string_view line) {
+  const auto hash = line.find_first_not_of(" \t");
+  if (hash == std::string_view::npos || line[hash] != '#') return {};
+  const auto word = line.find_first_not_of(" \t", hash + 1);
+  return word == std::string_view::npos ? std::string_view() : line.substr(word);
+}
+
+Include included_by(std::string_view line) {
+  const std::string_view words = directive(line);
+  if (words.substr(0, 7) != "include") return {};
+  const auto begin = words.find_first_of("\"<");
+  if (begin == std::string_view::npos) return {};
+  const bool is_quoted = words[begin] == '"';
+  const auto end = words.find(is_quoted ? '"' : '>', begin + 1);
+  if (end == std::string_view::npos) return {};
+  return {std::string(words.substr(begin + 1, end - begin - 1)), is_quoted};
 }
 
 Defines lines_of(const std::vector<std::string> &defines) {

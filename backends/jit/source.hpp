@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hg::jit {
@@ -21,6 +22,15 @@ struct Source {
   /// Throws NoSource, or NotCompiled where the text is not there.
   static Source of(CeedQFunction qf);
 };
+
+/// What a line includes.
+struct Include {
+  std::string name;  ///< empty: it includes nothing
+  bool is_quoted = false;
+};
+Include included_by(std::string_view line);
+/// The words of a directive after `#`, or nothing.
+std::string_view directive(std::string_view line);
 
 /// Lines that define what is defined for a QFunction, and lines that end that: our own text does not see it. What
 /// begins with a dash is an option for a compiler, and left out.
