@@ -1,4 +1,6 @@
 /// Backends on devices of CUDA.
+#include <iterator>
+
 #include "../gpu/vendor_backend.hpp"
 #include "vendor.hpp"
 
@@ -6,13 +8,13 @@ namespace hg::cuda {
 
 namespace {
 
-constexpr CeedBackend backend = gpu::stages_of<vendor>("/gpu/cuda/ref");
+constexpr CeedBackend backends[] = {gpu::fused_of<vendor>("/gpu/cuda/gen"), gpu::stages_of<vendor>("/gpu/cuda/ref")};
 
 constexpr CeedPlugin plugin{.size = sizeof(CeedPlugin),
                             .api_version = CEED_PLUGIN_API_VERSION,
                             .name = "cuda",
-                            .num_backends = 1,
-                            .backends = &backend};
+                            .num_backends = std::size(backends),
+                            .backends = backends};
 
 }  // namespace
 

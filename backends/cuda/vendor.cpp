@@ -38,6 +38,12 @@ int make_current(const gpu::VendorLibrary &driver, int device) {
   return context == nullptr ? invalid_context : set_current(context);
 }
 
+int allow_shared(const gpu::VendorLibrary &driver, void *function, std::size_t bytes) {
+  constexpr int max_dynamic_shared_size_bytes = 8;
+  const auto set = reinterpret_cast<int (*)(void *, int, int)>(driver.symbol("cuFuncSetAttribute"));
+  return set(function, max_dynamic_shared_size_bytes, static_cast<int>(bytes));
+}
+
 std::vector<std::string> options(const gpu::DriverCalls &calls, int device) {
   constexpr int compute_capability_major = 75, compute_capability_minor = 76;
   int major = 0, minor = 0;
@@ -48,14 +54,16 @@ std::vector<std::string> options(const gpu::DriverCalls &calls, int device) {
 
 }  // namespace
 
-const gpu::Vendor vendor{.name = "CUDA",
-                         .driver_files = driver_files,
-                         .compiler_files = compiler_files,
-                         .driver_names = driver_names,
-                         .compiler_names = compiler_names,
-                         .attributes = {.max_threads = 1, .shared_per_block = 8, .warp_size = 10, .num_processors = 16},
-                         .error = error,
-                         .make_current = make_current,
-                         .options = options};
+const gpu::Vendor vendor{
+    .name = "CUDA",
+    .driver_files = driver_files,
+    .compiler_files = compiler_files,
+    .driver_names = driver_names,
+    .compiler_names = compiler_names,
+    .attributes = {.max_threads = 1, .shared_per_block = 97, .warp_size = 10, .num_processors = 16},
+    .error = error,
+    .make_current = make_current,
+    .allow_shared = allow_shared,
+    .options = options};
 
 }  // namespace hg::cuda

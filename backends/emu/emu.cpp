@@ -1,4 +1,6 @@
 /// Backends on a device that is none, for tests of what is compiled for devices.
+#include <iterator>
+
 #include "../gpu/tables.hpp"
 #include "../host/access.hpp"
 #include "../jit/compiler.hpp"
@@ -8,8 +10,12 @@ namespace hg::emu {
 
 namespace {
 
-int init(Ceed ceed, const char *options, CeedBackendOps *ops) {
+int init_stages(Ceed ceed, const char *options, CeedBackendOps *ops) {
   return host::wall(ceed, [&] { host::chk(gpu::init_stages(ceed, std::make_shared<Emulator>(parse(options)), ops)); });
+}
+int init_fused(Ceed ceed, const char *options, CeedBackendOps *ops) {
+  return host::wall(ceed,
+                    [&] { host::chk(gpu::init_fused(ceed, std::make_shared<Emulator>(parse(options)), "", ops)); });
 }
 
 int score(const char **reason) {
@@ -24,13 +30,14 @@ int score(const char **reason) {
   }
 }
 
-constexpr CeedBackend backend = gpu::stages("/gpu/emu/ref", CEED_MAX_BACKEND_PRIORITY, score, init);
+constexpr CeedBackend backends[] = {gpu::on_device("/gpu/emu/ref", CEED_MAX_BACKEND_PRIORITY, score, init_stages),
+                                    gpu::on_device("/gpu/emu/gen", CEED_MAX_BACKEND_PRIORITY, score, init_fused)};
 
 constexpr CeedPlugin plugin{.size = sizeof(CeedPlugin),
                             .api_version = CEED_PLUGIN_API_VERSION,
                             .name = "emu",
-                            .num_backends = 1,
-                            .backends = &backend};
+                            .num_backends = std::size(backends),
+                            .backends = backends};
 
 }  // namespace
 

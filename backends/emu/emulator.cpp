@@ -102,7 +102,7 @@ Emulator::Emulator(const Options &options)
       properties_{.name = "emulator",
                   .warp_size = options.warp_size,
                   .max_threads = 1024,
-                  .shared_per_block = 48 << 10,
+                  .shared_per_block = 64 << 10,
                   .num_processors = 2} {}
 
 // What nobody has written is no number.

@@ -57,7 +57,9 @@ class Buffer {
 /// Any thread may use it.
 class Device {
  public:
-  explicit Device(std::shared_ptr<Driver> driver) : driver_(std::move(driver)) {}
+  /// `block_threads`: most threads of a block of a whole operator.
+  explicit Device(std::shared_ptr<Driver> driver, int block_threads = usual_threads)
+      : driver_(std::move(driver)), block_threads_(block_threads) {}
 
   /// That of an object's Ceed.
   static Device &of(Ceed ceed);
@@ -98,12 +100,14 @@ class Device {
   }
 
   static constexpr int usual_threads = 256;
+  int block_threads() const { return block_threads_; }
 
  private:
   Kernel library_kernel(const char *name);
 
   std::recursive_mutex mutex_;
   std::shared_ptr<Driver> driver_;
+  int block_threads_;
   std::unique_ptr<Module> library_;
   std::map<std::string, Kernel, std::less<>> kernels_;
 };

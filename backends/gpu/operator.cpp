@@ -1,12 +1,10 @@
-/// v = Σ_e R_e^T B^T D(B R_e u) in stages, each for the whole mesh: gather, evaluate, call the QFunction, integrate,
-/// scatter. Between them are E-vectors and the QFunction's fields, which are kept with the operator.
+/// The tables of operators: in stages, or as one kernel where that is possible.
 #include <memory>
-#include <vector>
 
 #include "../host/access.hpp"
-#include "basis.hpp"
-#include "qfunction.hpp"
-#include "restriction.hpp"
+#include "../jit/compiler.hpp"
+#include "fused.hpp"
+#include "staged.hpp"
 #include "tables.hpp"
 
 namespace hg::gpu {
@@ -15,154 +13,25 @@ using host::chk, host::wall;
 
 namespace {
 
-class StagedOperator {
- public:
-  StagedOperator(Device &device, const CeedProgram &program) : device_(device) { make(program); }
-
-  void apply_add(const CeedProgram &program, PointFunction &function, CeedVector in, CeedVector out,
-                 CeedApplyMode mode);
-  std::size_t num_bytes() const;
-
- private:
-  struct Side {
-    Nodes nodes;
-    Buffer values;  ///< E-vector
-  };
-  /// Basis functions at the points of a space; empty at quadrature points.
-  using Tables = std::vector<Buffer>;
-
-  void make(const CeedProgram &program);
-  void make_points(const CeedProgram &program);
-  void evaluate(const CeedProgram &program, const Tables &tables);
-  void integrate(const CeedProgram &program, const Tables &tables);
-  Buffer field(const CeedProgramField &field) const {
-    return device_.allocate(points_.facts().num_points * field.size * sizeof(CeedScalar));
-  }
-  Side side(CeedElemRestriction rstr) const {
-    Nodes nodes(device_, rstr, Nodes::Layout::elements);
-    const std::size_t bytes = nodes.e_size() * sizeof(CeedScalar);
-    return {std::move(nodes), device_.allocate(bytes)};
-  }
-
-  Device &device_;
-  CeedSize points_epoch_ = -1;
-  Points points_;
-  std::vector<Side> sources_, sinks_;
-  std::unique_ptr<Side> coordinates_;
-  std::vector<Buffer> inputs_, outputs_;
+/// What an operator keeps once it was applied.
+struct Kept {
+  std::unique_ptr<StagedOperator> staged;
+  std::unique_ptr<FusedOperator> fused;
+  bool is_fused_tried = false;
 };
 
-void StagedOperator::make_points(const CeedProgram &program) {
-  if (!program.at_points) {
-    points_ = Points(program.num_elem, program.num_qpts);
-    return;
-  }
-  const CeedElementMap *map = nullptr;
-  chk(CeedElemRestrictionGetElementMap(program.points_rstr, &map));
-  std::vector<CeedInt> counts(program.num_elem);
-  for (CeedInt e = 0; e < program.num_elem; e++) counts[e] = map->offsets[e + 1] - map->offsets[e];
-  points_ = Points(device_, program.num_elem, counts.data());
-  coordinates_ = std::make_unique<Side>(side(program.points_rstr));
-}
-
-void StagedOperator::make(const CeedProgram &program) {
-  points_epoch_ = -1;  // until all is made
-  sources_.clear();
-  sinks_.clear();
-  inputs_.clear();
-  outputs_.clear();
-  make_points(program);
-  for (CeedInt s = 0; s < program.num_sources; s++) sources_.push_back(side(program.sources[s].rstr));
-  for (CeedInt t = 0; t < program.num_sinks; t++) sinks_.push_back(side(program.sinks[t].rstr));
-  for (CeedInt i = 0; i < program.num_inputs; i++) {
-    const CeedProgramField &f = program.inputs[i];
-    inputs_.push_back(f.eval_mode == CEED_EVAL_NONE ? Buffer() : field(f));
-    if (f.eval_mode != CEED_EVAL_WEIGHT) continue;
-    tables_of(program.spaces[f.space].basis).weights(points_, inputs_.back().as<CeedScalar>());
-  }
-  for (CeedInt o = 0; o < program.num_outputs; o++) outputs_.push_back(field(program.outputs[o]));
-  points_epoch_ = program.points_epoch;
-}
-
-/// The QFunction's inputs from the E-vectors of the sources; those that are not evaluated are in them as they are.
-void StagedOperator::evaluate(const CeedProgram &program, const Tables &tables) {
-  for (CeedInt i = 0; i < program.num_inputs; i++) {
-    const CeedProgramField &field = program.inputs[i];
-    if (field.eval_mode == CEED_EVAL_NONE || field.eval_mode == CEED_EVAL_WEIGHT) continue;
-    tables_of(program.spaces[field.space].basis)
-        .evaluate(field.eval_mode, points_, program.num_elem, tables[field.space].as<CeedScalar>(),
-                  sources_[field.side].values.as<CeedScalar>(), inputs_[i].as<CeedScalar>());
-  }
-}
-
-/// The E-vectors of the sinks from the QFunction's outputs.
-void StagedOperator::integrate(const CeedProgram &program, const Tables &tables) {
-  std::vector<bool> has_values(sinks_.size(), false);
-  for (CeedInt o = 0; o < program.num_outputs; o++) {
-    const CeedProgramField &field = program.outputs[o];
-    const bool add = has_values[field.side];
-    const CeedScalar *from = outputs_[o].as<CeedScalar>();
-    CeedScalar *to = sinks_[field.side].values.as<CeedScalar>();
-    has_values[field.side] = true;
-    if (field.eval_mode == CEED_EVAL_NONE) {
-      const CeedSize length = points_.facts().num_points * field.size;
-      device_.run("hg_axpby", length, VectorJob{.length = length, .a = 1, .b = add ? 1.0 : 0.0, .x = from, .w = to});
-    } else {
-      tables_of(program.spaces[field.space].basis)
-          .integrate(field.eval_mode, points_, program.num_elem, tables[field.space].as<CeedScalar>(), from, to, add);
-    }
-  }
-}
-
-void StagedOperator::apply_add(const CeedProgram &program, PointFunction &function, CeedVector in, CeedVector out,
-                               CeedApplyMode mode) {
-  if (program.points_epoch != points_epoch_) make(program);
-  host::ProgramArrays arrays(program, in, out, mode, false, CEED_MEM_DEVICE);
-  Tables tables(program.num_spaces);
-  if (program.at_points) {
-    CeedScalar *x_ref = coordinates_->values.as<CeedScalar>();
-    coordinates_->nodes.gather(arrays.points(), x_ref);
-    for (CeedInt i = 0; i < program.num_spaces; i++) {
-      if (program.spaces[i].rstr == CEED_ELEMRESTRICTION_NONE) continue;  // for weights
-      tables[i] = tables_of(program.spaces[i].basis).at_points(points_, x_ref);
-    }
-  }
-  for (std::size_t s = 0; s < sources_.size(); s++) {
-    sources_[s].nodes.gather(arrays.sources()[s], sources_[s].values.as<CeedScalar>());
-  }
-  evaluate(program, tables);
-  std::vector<const CeedScalar *> inputs;
-  std::vector<CeedScalar *> outputs;
-  for (CeedInt i = 0; i < program.num_inputs; i++) {
-    const CeedProgramField &field = program.inputs[i];
-    const bool is_evaluated = field.eval_mode != CEED_EVAL_NONE;
-    inputs.push_back((is_evaluated ? inputs_[i] : sources_[field.side].values).as<CeedScalar>());
-  }
-  for (const Buffer &output : outputs_) outputs.push_back(output.as<CeedScalar>());
-  host::check_returned(program, function.call(points_, inputs, outputs), 0, program.num_elem);
-  integrate(program, tables);
-  for (std::size_t t = 0; t < sinks_.size(); t++) {
-    sinks_[t].nodes.scatter_add(sinks_[t].values.as<CeedScalar>(), arrays.sinks()[t]);
-  }
-  arrays.release();
-}
-
-std::size_t StagedOperator::num_bytes() const {
-  std::size_t bytes = sizeof *this + points_.num_bytes();
-  const auto add = [&](const Side &side) { bytes += side.nodes.num_bytes() + side.values.num_bytes(); };
-  for (const Side &side : sources_) add(side);
-  for (const Side &side : sinks_) add(side);
-  if (coordinates_) add(*coordinates_);
-  for (const Buffer &input : inputs_) bytes += input.num_bytes();
-  for (const Buffer &output : outputs_) bytes += output.num_bytes();
-  return bytes;
-}
-
 /// NULL where it was not applied yet, or is the parent's.
-StagedOperator *operator_of(CeedOperator op) {
-  StagedOperator *own = nullptr;
-  chk(CeedOperatorGetData(op, &own));
-  return own;
+Kept *kept_of(CeedOperator op) {
+  Kept *kept = nullptr;
+  chk(CeedOperatorGetData(op, &kept));
+  return kept;
+}
+
+Kept &own_kept_of(CeedOperator op) {
+  if (Kept *kept = kept_of(op)) return *kept;
+  auto made = std::make_unique<Kept>();
+  chk(CeedOperatorSetData(op, made.get()));
+  return *made.release();
 }
 
 int create(CeedOperator op, const CeedProgram *) {
@@ -171,38 +40,62 @@ int create(CeedOperator op, const CeedProgram *) {
 
 int destroy(CeedOperator op) {
   return wall(CeedOperatorReturnCeed(op), [&] {
-    delete operator_of(op);
+    delete kept_of(op);
     chk(CeedOperatorSetData(op, nullptr));
   });
 }
 
-int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+void apply_staged(CeedOperator op, const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+  PointFunction *function = function_of(program.qf);
+  if (function == nullptr) return chk(parents_tables().op.apply_add(op, &program, in, out, mode));
+  auto &staged = own_kept_of(op).staged;
+  if (staged == nullptr) {
+    staged = std::make_unique<StagedOperator>(Device::of(CeedOperatorReturnCeed(op)), program);
+  }
+  staged->apply_add(program, *function, in, out, mode);
+}
+
+int apply_add_staged(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+  return wall(CeedOperatorReturnCeed(op), [&] { apply_staged(op, *program, in, out, mode); });
+}
+
+int apply_add_fused(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
   return wall(CeedOperatorReturnCeed(op), [&] {
-    PointFunction *function = function_of(program->qf);
-    if (function == nullptr) return chk(parents_tables().op.apply_add(op, program, in, out, mode));
-    if (operator_of(op) == nullptr) {
-      auto own = std::make_unique<StagedOperator>(Device::of(CeedOperatorReturnCeed(op)), *program);
-      chk(CeedOperatorSetData(op, own.get()));
-      own.release();
+    Kept &kept = own_kept_of(op);
+    if (!kept.is_fused_tried) {
+      try {
+        kept.fused = FusedOperator::make(Device::of(CeedOperatorReturnCeed(op)), *program);
+      } catch (const jit::NoSource &) {
+        // It runs on the host, which is told there.
+      }
+      kept.is_fused_tried = true;
     }
-    operator_of(op)->apply_add(*program, *function, in, out, mode);
+    if (kept.fused != nullptr) {
+      kept.fused->apply_add(*program, in, out, mode);
+    } else {
+      apply_staged(op, *program, in, out, mode);
+    }
   });
 }
 
 int get_memory(CeedOperator op, CeedSize *bytes) {
   return wall(CeedOperatorReturnCeed(op), [&] {
-    const StagedOperator *own = operator_of(op);
-    *bytes = own != nullptr ? static_cast<CeedSize>(own->num_bytes()) : 0;
+    *bytes = 0;
+    const Kept *kept = kept_of(op);
+    if (kept == nullptr) return;
+    *bytes = sizeof *kept;
+    if (kept->staged != nullptr) *bytes += static_cast<CeedSize>(kept->staged->num_bytes());
+    if (kept->fused != nullptr) *bytes += static_cast<CeedSize>(kept->fused->num_bytes());
   });
 }
 
 }  // namespace
 
 // What is assembled is assembled by the reference, on the host.
-void fill_operator_ops(CeedOperatorOps &ops) {
+void fill_operator_ops(CeedOperatorOps &ops, bool is_fused) {
   ops.create = create;
   ops.destroy = destroy;
-  ops.apply_add = apply_add;
+  ops.apply_add = is_fused ? apply_add_fused : apply_add_staged;
   ops.get_memory = get_memory;
 }
 

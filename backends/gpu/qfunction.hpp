@@ -4,13 +4,13 @@
 
 #include <ceed/plugin.h>
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "basis.hpp"
 #include "device.hpp"
+#include "function_text.hpp"
 
 namespace hg::gpu {
 
@@ -18,7 +18,7 @@ namespace hg::gpu {
 /// without text, jit::NotCompiled where that is not there.
 std::string kernel_text(CeedQFunction qf);
 
-/// A QFunction that was compiled. It may read its context; what it writes to it is not seen on the host.
+/// A QFunction that was compiled.
 class PointFunction {
  public:
   /// Throws jit::NoSource where it came without text, jit::NotCompiled or DeviceError where that cannot be compiled.
@@ -29,18 +29,15 @@ class PointFunction {
            const std::vector<CeedScalar *> &outputs);
 
  private:
-  void *context();
+  PointFunction(Device &device, CeedQFunction qf, const FunctionText &function);
 
   Device *device_;
-  CeedQFunction qf_;
+  FunctionState state_;
   std::unique_ptr<Module> module_;
   Kernel kernel_;
   CeedInt vector_length_ = 1;
-  bool may_fail_ = true;
-  Buffer arrays_, context_, failed_;
-  std::vector<const void *> pointers_;       ///< what arrays_ holds
-  CeedQFunctionContext uploaded_ = nullptr;  ///< whose data context_ has; compared only
-  std::uint64_t context_state_ = 0;
+  Buffer arrays_;
+  std::vector<const void *> pointers_;  ///< what arrays_ holds
 };
 
 /// That of a QFunction, which keeps it; NULL where it has no text for the device: it runs on the host, which is told

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "../host/access.hpp"
@@ -13,13 +14,13 @@ namespace hg::gpu {
 
 using host::chk, host::wall;
 
-namespace {
-
 const CeedElementMap &map_of(CeedElemRestriction rstr) {
   const CeedElementMap *map = nullptr;
   chk(CeedElemRestrictionGetElementMap(rstr, &map));
   return *map;
 }
+
+namespace {
 
 /// Places of the nodes in the order of elements, and what belongs to them.
 struct Lists {
@@ -125,26 +126,38 @@ std::size_t Nodes::num_bytes() const {
 
 namespace {
 
+/// What a restriction keeps, each when it is used.
+struct Kept {
+  std::unique_ptr<Nodes> nodes;
+  Buffer offsets;
+};
+
+Kept &kept_of(CeedElemRestriction rstr) {
+  Kept *kept = nullptr;
+  chk(CeedElemRestrictionGetData(rstr, &kept));
+  if (kept != nullptr) return *kept;
+  auto made = std::make_unique<Kept>();
+  chk(CeedElemRestrictionSetData(rstr, made.get()));
+  return *made.release();
+}
+
 int create(CeedElemRestriction rstr) {
-  return CeedElemRestrictionSetData(rstr, nullptr);  // the lists are made when they are used
+  return CeedElemRestrictionSetData(rstr, nullptr);
 }
 
 int destroy(CeedElemRestriction rstr) {
-  Nodes *nodes = nullptr;
-  CeedCallBackend(CeedElemRestrictionGetData(rstr, &nodes));
-  delete nodes;
+  Kept *kept = nullptr;
+  CeedCallBackend(CeedElemRestrictionGetData(rstr, &kept));
+  delete kept;
   return CEED_ERROR_SUCCESS;
 }
 
 const Nodes &nodes_of(CeedElemRestriction rstr) {
   Device &device = Device::of(CeedElemRestrictionReturnCeed(rstr));
   const auto one_thread = device.lock();
-  Nodes *nodes = nullptr;
-  chk(CeedElemRestrictionGetData(rstr, &nodes));
-  if (nodes != nullptr) return *nodes;
-  auto made = std::make_unique<Nodes>(device, rstr, Nodes::Layout::blocks);
-  chk(CeedElemRestrictionSetData(rstr, made.get()));
-  return *made.release();
+  auto &nodes = kept_of(rstr).nodes;
+  if (nodes == nullptr) nodes = std::make_unique<Nodes>(device, rstr, Nodes::Layout::blocks);
+  return *nodes;
 }
 
 int apply(CeedElemRestriction rstr, CeedInt first_block, CeedInt num_block, CeedTransposeMode t_mode, CeedVector u,
@@ -174,6 +187,20 @@ int apply(CeedElemRestriction rstr, CeedInt first_block, CeedInt num_block, Ceed
 }
 
 }  // namespace
+
+const CeedInt *offsets_of(CeedElemRestriction rstr) {
+  Device &device = Device::of(CeedElemRestrictionReturnCeed(rstr));
+  const auto one_thread = device.lock();
+  Buffer &offsets = kept_of(rstr).offsets;
+  if (!offsets) {
+    const CeedElementMap &map = map_of(rstr);
+    const std::size_t count = map.type == CEED_RESTRICTION_POINTS
+                                  ? static_cast<std::size_t>(map.offsets[map.num_elem])
+                                  : static_cast<std::size_t>(map.num_elem) * map.elem_size;
+    offsets = device.upload(std::span(map.offsets, count));
+  }
+  return offsets.as<CeedInt>();
+}
 
 void fill_restriction_ops(CeedElemRestrictionOps &ops) {
   ops = {.create = create, .destroy = destroy, .apply = apply};

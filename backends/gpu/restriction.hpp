@@ -34,4 +34,9 @@ class Nodes {
   Buffer place_, entry_, step_, bands_, rows_, nodes_;
 };
 
+/// What a restriction says of itself.
+const CeedElementMap &map_of(CeedElemRestriction rstr);
+/// CeedElementMap::offsets of a restriction without strides and blocks, on the device; it keeps them.
+const CeedInt *offsets_of(CeedElemRestriction rstr);
+
 }  // namespace hg::gpu

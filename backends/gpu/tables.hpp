@@ -14,15 +14,18 @@ void fill_vector_ops(CeedVectorOps &ops);
 void fill_restriction_ops(CeedElemRestrictionOps &ops);
 void fill_basis_ops(CeedBasisOps &ops);
 void fill_qfunction_ops(CeedQFunctionOps &ops);
-void fill_operator_ops(CeedOperatorOps &ops);
+void fill_operator_ops(CeedOperatorOps &ops, bool is_fused);
 
 /// Sets a Ceed up whose work is done in stages, a kernel each, on the device of `driver`: the backends .../ref. `ops`
 /// are those of the reference, which does what is not taken here.
 int init_stages(Ceed ceed, std::shared_ptr<Driver> driver, CeedBackendOps *ops);
+/// The same with operators that are one kernel where that is possible: the backends .../gen. `options`:
+/// "threads=N", most threads of a block, from 32 to 1024.
+int init_fused(Ceed ceed, std::shared_ptr<Driver> driver, const char *options, CeedBackendOps *ops);
 
-/// A backend in stages, for a plugin's list.
-constexpr CeedBackend stages(const char *resource, unsigned priority, decltype(CeedBackend::score) score,
-                             decltype(CeedBackend::init) init) {
+/// A backend on a device, for a plugin's list.
+constexpr CeedBackend on_device(const char *resource, unsigned priority, decltype(CeedBackend::score) score,
+                                decltype(CeedBackend::init) init) {
   return {.resource = resource,
           .parent = "/cpu/self/ref/serial",
           .priority = priority,

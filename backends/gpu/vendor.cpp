@@ -206,6 +206,10 @@ void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, 
                       " blocks; at most 2147483647 are possible");
   }
   make_current();
+  constexpr std::size_t usual_shared = 48 << 10;
+  if (launch.shared_bytes > usual_shared) {
+    check(vendor_.allow_shared(library_, kernel.handle, launch.shared_bytes), "a block cannot have its shared memory");
+  }
   void *arguments[] = {const_cast<void *>(job)};
   check(calls_.launch(kernel.handle, static_cast<unsigned>(launch.num_blocks), 1, 1,
                       static_cast<unsigned>(launch.num_threads), 1, 1, static_cast<unsigned>(launch.shared_bytes),

@@ -78,6 +78,8 @@ struct Vendor {
   std::string (*error)(const VendorLibrary &driver, int code);
   /// Makes a device the one that this thread's calls are for.
   int (*make_current)(const VendorLibrary &driver, int device);
+  /// Lets blocks of a kernel have so much shared memory, more than usual.
+  int (*allow_shared)(const VendorLibrary &driver, void *function, std::size_t bytes);
   /// The compiler's options for a device.
   std::vector<std::string> (*options)(const DriverCalls &calls, int device);
 };

@@ -1,4 +1,6 @@
 /// Backends on devices of HIP.
+#include <iterator>
+
 #include "../gpu/vendor_backend.hpp"
 #include "vendor.hpp"
 
@@ -6,13 +8,13 @@ namespace hg::hip {
 
 namespace {
 
-constexpr CeedBackend backend = gpu::stages_of<vendor>("/gpu/hip/ref");
+constexpr CeedBackend backends[] = {gpu::fused_of<vendor>("/gpu/hip/gen"), gpu::stages_of<vendor>("/gpu/hip/ref")};
 
 constexpr CeedPlugin plugin{.size = sizeof(CeedPlugin),
                             .api_version = CEED_PLUGIN_API_VERSION,
                             .name = "hip",
-                            .num_backends = 1,
-                            .backends = &backend};
+                            .num_backends = std::size(backends),
+                            .backends = backends};
 
 }  // namespace
 

@@ -42,6 +42,7 @@ const gpu::Vendor vendor{
     .attributes = {.max_threads = 56, .shared_per_block = 74, .warp_size = 87, .num_processors = 63},
     .error = error,
     .make_current = make_current,
+    .allow_shared = [](const gpu::VendorLibrary &, void *, std::size_t) { return 0; },
     .options = options};
 
 }  // namespace hg::hip

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "access.hpp"
-
 namespace hg::host {
 
 namespace {
@@ -48,52 +46,6 @@ std::vector<CeedScalar> with_columns(const std::vector<CeedScalar> &B, CeedInt M
   return coefficients;
 }
 
-/// D with D B = G, for B and G Q by P; empty where there is none to working precision. With B = W R, the columns of W
-/// orthonormal: D = G R^-1 W^T. (The core's pseudoinverse tells the user of dependent columns, which are no error
-/// here.)
-std::vector<CeedScalar> derivative_at_points(const CeedScalar *B, const CeedScalar *G, CeedInt Q, CeedInt P) {
-  if (Q < P) return {};
-  std::vector<CeedScalar> W(B, B + static_cast<std::size_t>(Q) * P), X(G, G + static_cast<std::size_t>(Q) * P);
-  const auto dot = [&](CeedInt j, CeedInt k) {
-    CeedScalar sum = 0;
-    for (CeedInt q = 0; q < Q; q++) sum += W[q * P + j] * W[q * P + k];
-    return sum;
-  };
-  // Column operations that make the columns of W orthonormal turn G into X = G R^-1.
-  for (CeedInt k = 0; k < P; k++) {
-    const CeedScalar before = std::sqrt(dot(k, k));
-    for (CeedInt pass = 0; pass < 2; pass++) {
-      for (CeedInt j = 0; j < k; j++) {
-        const CeedScalar r = dot(j, k);
-        for (CeedInt q = 0; q < Q; q++) {
-          W[q * P + k] -= r * W[q * P + j];
-          X[q * P + k] -= r * X[q * P + j];
-        }
-      }
-    }
-    const CeedScalar norm = std::sqrt(dot(k, k));
-    if (!(norm > 1e-10 * before)) return {};
-    for (CeedInt q = 0; q < Q; q++) {
-      W[q * P + k] /= norm;
-      X[q * P + k] /= norm;
-    }
-  }
-  std::vector<CeedScalar> D(static_cast<std::size_t>(Q) * Q);
-  CeedScalar largest = 0, error = 0;
-  for (CeedInt i = 0; i < Q; i++) {
-    for (CeedInt j = 0; j < Q; j++) {
-      for (CeedInt k = 0; k < P; k++) D[i * Q + j] += X[i * P + k] * W[j * P + k];
-    }
-    for (CeedInt k = 0; k < P; k++) {
-      CeedScalar product = 0;
-      for (CeedInt j = 0; j < Q; j++) product += D[i * Q + j] * B[j * P + k];
-      largest = std::max(largest, std::abs(G[i * P + k]));
-      error = std::max(error, std::abs(product - G[i * P + k]));
-    }
-  }
-  return error <= 1e-14 * Q * largest ? D : std::vector<CeedScalar>();
-}
-
 }  // namespace
 
 Factor::Direction Factor::prepare(const Kernels &kernels, const std::vector<CeedScalar> &B, CeedInt M, CeedInt N) {
@@ -122,62 +74,24 @@ Factor::Factor(const Kernels &kernels, const CeedScalar *B, CeedInt M, CeedInt N
   back_ = prepare(kernels, transpose, N, M);
 }
 
-BlockBasis::BlockBasis(const Kernels &kernels, CeedBasis basis) : width_(kernels.width) {
-  bool is_tensor = false;
-  chk(CeedBasisIsTensor(basis, &is_tensor));
-  chk(CeedBasisGetNumComponents(basis, &num_comp_));
-  if (is_tensor) {
-    create_tensor(kernels, basis);
+BlockBasis::BlockBasis(const Kernels &kernels, CeedBasis basis) : BlockBasis(kernels, BasisFactors(basis)) {}
+
+BlockBasis::BlockBasis(const Kernels &kernels, const BasisFactors &factors)
+    : route_(factors.route),
+      width_(kernels.width),
+      num_directions_(factors.num_directions),
+      num_comp_(factors.num_comp),
+      P_(factors.P),
+      Q_(factors.Q),
+      weights_(factors.weights) {
+  if (route_ == Route::full) {
+    for (const CeedScalar *B : factors.interp) interp_.emplace_back(kernels, B, Q_, P_);
+    for (const CeedScalar *B : factors.derivative) derivative_.emplace_back(kernels, B, Q_, P_);
   } else {
-    create_full(kernels, basis);
+    interp_1d_ = Factor(kernels, factors.interp_1d.data(), Q_, P_);
+    grad_1d_ = Factor(kernels, factors.grad_1d.data(), Q_, route_ == Route::collocated ? Q_ : P_);
   }
   work_stride_ = static_cast<std::size_t>(power(std::max(P_, Q_), num_directions_)) * num_comp_ * width_;
-}
-
-void BlockBasis::create_tensor(const Kernels &kernels, CeedBasis basis) {
-  const CeedScalar *interp, *grad, *weight;
-  chk(CeedBasisGetDimension(basis, &num_directions_));
-  chk(CeedBasisGetNumNodes1D(basis, &P_));
-  chk(CeedBasisGetNumQuadraturePoints1D(basis, &Q_));
-  chk(CeedBasisGetInterp1D(basis, &interp));
-  chk(CeedBasisGetGrad1D(basis, &grad));
-  chk(CeedBasisGetQWeights(basis, &weight));
-  bool is_identity = P_ == Q_;
-  for (CeedInt i = 0; i < Q_ && is_identity; i++) {
-    for (CeedInt j = 0; j < P_; j++) is_identity = is_identity && interp[i * P_ + j] == (i == j ? 1.0 : 0.0);
-  }
-  const auto D = is_identity ? std::vector<CeedScalar>(grad, grad + static_cast<std::size_t>(Q_) * P_)
-                             : derivative_at_points(interp, grad, Q_, P_);
-  route_ = is_identity ? Route::identity : !D.empty() ? Route::collocated : Route::chains;
-  interp_1d_ = Factor(kernels, interp, Q_, P_);
-  grad_1d_ = D.empty() ? Factor(kernels, grad, Q_, P_) : Factor(kernels, D.data(), Q_, Q_);
-  weights_ = {1.0};
-  for (CeedInt d = 0; d < num_directions_; d++) {
-    std::vector<CeedScalar> product;
-    for (CeedInt q = 0; q < Q_; q++) {
-      for (const CeedScalar w : weights_) product.push_back(w * weight[q]);
-    }
-    weights_ = std::move(product);
-  }
-}
-
-void BlockBasis::create_full(const Kernels &kernels, CeedBasis basis) {
-  const CeedScalar *matrices, *weight;
-  chk(CeedBasisGetNumNodes(basis, &P_));
-  chk(CeedBasisGetNumQuadraturePoints(basis, &Q_));
-  const std::size_t size = static_cast<std::size_t>(P_) * Q_;
-  const auto add = [&](CeedEvalMode mode, std::vector<Factor> &factors) {
-    CeedInt count = 0;
-    chk(CeedBasisGetNumQuadratureComponents(basis, mode, &count));
-    chk(CeedOperatorGetBasisPointer(basis, mode, nullptr, &matrices));
-    for (CeedInt g = 0; g < count; g++) factors.emplace_back(kernels, matrices + g * size, Q_, P_);
-  };
-  add(CEED_EVAL_INTERP, interp_);
-  CeedEvalMode derivative = CEED_EVAL_NONE;
-  chk(CeedBasisGetDerivativeMode(basis, &derivative));
-  if (derivative != CEED_EVAL_NONE) add(derivative, derivative_);
-  chk(CeedBasisGetQWeights(basis, &weight));
-  weights_.assign(weight, weight + Q_);
 }
 
 // values(i, j, k) = Σ A_2(k, n) A_1(j, m) A_0(i, l) u(l, m, n), A_d the derivative where d is derived_direction.

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "basis_factors.hpp"
 #include "kernels.hpp"
 
 namespace hg::host {
@@ -76,12 +77,7 @@ class BlockBasis {
   const std::vector<CeedScalar> &weights() const { return weights_; }
 
   /// How values come about, for those who print it.
-  enum class Route {
-    identity,    ///< tensor product whose points are the nodes
-    collocated,  ///< tensor product, derivatives at the points
-    chains,      ///< tensor product, a chain for each derivative
-    full,        ///< a matrix for each value
-  };
+  using Route = BasisFactors::Route;
   Route route() const { return route_; }
   CeedInt num_directions() const { return num_directions_; }  ///< 1 where the matrices are full
   CeedInt num_comp() const { return num_comp_; }
@@ -96,8 +92,7 @@ class BlockBasis {
 
  private:
   static CeedInt power(CeedInt base, CeedInt exponent) { return CeedIntPow(base, exponent); }
-  void create_tensor(const Kernels &kernels, CeedBasis basis);
-  void create_full(const Kernels &kernels, CeedBasis basis);
+  BlockBasis(const Kernels &kernels, const BasisFactors &factors);
   void to_points(const CeedScalar *u, CeedScalar *values, CeedInt derived_direction, CeedScalar *work,
                  Ahead &ahead) const;
   void to_nodes(const CeedScalar *values, CeedScalar *u, CeedInt derived_direction, bool add, CeedScalar *work,

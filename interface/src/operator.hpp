@@ -46,6 +46,7 @@ struct CeedOperator_private final : CeedObject_private {
   hg::Ref<CeedElemRestriction_private> points_rstr;
   hg::Ref<CeedVector_private> points;
   CeedSize points_epoch = 0;
+  CeedSize checked_points = -1;  ///< the epoch in which points and fields were found to belong together
   std::unique_ptr<hg::Program> program;  ///< NULL until lowered
   bool is_program_stale = false;         ///< points or fields at points were set after lowering
   void *data = nullptr;                  ///< of the backend

@@ -96,7 +96,9 @@ CeedInt implied_points(const CeedOperator_private &op, const CeedOperatorField_p
   return field.basis.get() != CEED_BASIS_NONE ? field.basis->Q : field.rstr->elem_size;
 }
 
-void check_points(const CeedOperator_private &op) {
+/// Once an epoch: the lists of points are compared.
+void check_points(CeedOperator_private &op) {
+  if (op.checked_points == op.points_epoch) return;
   require(static_cast<bool>(op.points_rstr), CEED_ERROR_INCOMPLETE, [&] {
     return text("CeedOperator '%s' is at points, but has none; call CeedOperatorAtPointsSetPoints()", op.shown_name());
   });
@@ -118,6 +120,7 @@ void check_points(const CeedOperator_private &op) {
       });
     }
   }
+  op.checked_points = op.points_epoch;
 }
 
 template <typename Pick>

@@ -1,19 +1,26 @@
 // All that is compiled for devices, by the vendors' compilers where they are installed, for devices that need not be
 // there.
 #include <ceed.h>
+#include <ceed/plugin.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
 #include <optional>
+#include <regex>
 #include <string>
 #include <vector>
 
 #include "backends/cuda/vendor.hpp"
+#include "backends/gpu/operator_text.hpp"
 #include "backends/gpu/qfunction.hpp"
 #include "backends/gpu/texts.hpp"
 #include "backends/gpu/vendor.hpp"
 #include "backends/hip/vendor.hpp"
 #include "support/errors.hpp"
 #include "support/handles.hpp"
+#include "support/program.hpp"
 
 namespace {
 
@@ -45,9 +52,9 @@ class VendorTest : public testing::TestWithParam<int> {
     }
   }
   static const Target &target() { return targets()[static_cast<std::size_t>(GetParam())]; }
-  void compiles(const std::string &name, const std::string &text) const {
+  void compiles(const std::string &name, const std::string &text, std::string *log = nullptr) const {
     SCOPED_TRACE(name);
-    EXPECT_FALSE(compiler->compile(name, text, target().options).empty());
+    EXPECT_FALSE(compiler->compile(name, text, target().options, log).empty());
   }
 
   std::optional<gpu::VendorCompiler> compiler;
@@ -115,6 +122,114 @@ TEST_P(VendorTest, CompilesWhatTheProgramsUse) {
     add(function.inputs, "in", CeedQFunctionAddInput);
     add(function.outputs, "out", CeedQFunctionAddOutput);
     compiles(function.place, gpu::kernel_text(qf));
+  }
+}
+
+/// A mass or Poisson operator on two cells, at quadrature points or, where `per_cell` is not 0, at points.
+class BakeoffOperator {
+ public:
+  BakeoffOperator(Ceed ceed, bool is_poisson, CeedInt num_comp, CeedInt P, CeedInt Q, CeedInt per_cell) {
+    const CeedInt nodes = P * P * P, points = per_cell > 0 ? per_cell : Q * Q * Q, stored = is_poisson ? 6 : 1;
+    std::vector<CeedInt> places(num_elem * nodes), ids(num_elem + 1 + num_elem * points);
+    for (std::size_t i = 0; i < places.size(); i++) places[i] = static_cast<CeedInt>(i) * num_comp;
+    for (CeedInt e = 0; e <= num_elem; e++) ids[e] = num_elem + 1 + e * points;
+    std::iota(ids.begin() + num_elem + 1, ids.end(), 0);
+    ok(CeedElemRestrictionCreate(ceed, num_elem, nodes, num_comp, 1, num_elem * nodes * num_comp, CEED_MEM_HOST,
+                                 CEED_COPY_VALUES, places.data(), nodes_.out()));
+    ok(CeedBasisCreateTensorH1Lagrange(ceed, 3, num_comp, P, Q, Q == P ? CEED_GAUSS_LOBATTO : CEED_GAUSS,
+                                       basis_.out()));
+    const auto at_points = [&](CeedInt size, test::Restriction &restriction) {
+      ok(CeedElemRestrictionCreateAtPoints(ceed, num_elem, num_elem * points, size, num_elem * points * size,
+                                           CEED_MEM_HOST, CEED_COPY_VALUES, ids.data(), restriction.out()));
+    };
+    if (per_cell > 0) {
+      at_points(stored, stored_);
+      at_points(3, coordinates_);
+    } else {
+      ok(CeedElemRestrictionCreateStrided(ceed, num_elem, points, stored, num_elem * points * stored,
+                                          CEED_STRIDES_BACKEND, stored_.out()));
+    }
+    ok(CeedVectorCreate(ceed, num_elem * points * stored, data_.out()));
+    ok(CeedVectorCreate(ceed, num_elem * points * 3, x_.out()));
+    const std::string name = std::string(is_poisson ? "BPPoissonApply" : "BPMassApply") + (num_comp > 1 ? "3" : "");
+    const std::string place = std::string(HG_QFUNCTIONS) + (is_poisson ? "/bps/poisson.h:" : "/bps/mass.h:") + name;
+    const CeedQFunctionUser never = [](void *, CeedInt, const CeedScalar *const *, CeedScalar *const *) { return 1; };
+    const CeedEvalMode mode = is_poisson ? CEED_EVAL_GRAD : CEED_EVAL_INTERP;
+    const CeedInt size = num_comp * (is_poisson ? 3 : 1);
+    ok(CeedQFunctionCreateInterior(ceed, 1, never, place.c_str(), qf_.out()));
+    ok(CeedQFunctionAddInput(qf_, "u", size, mode));
+    ok(CeedQFunctionAddInput(qf_, "data", stored, CEED_EVAL_NONE));
+    ok(CeedQFunctionAddOutput(qf_, "v", size, mode));
+    ok((per_cell > 0 ? CeedOperatorCreateAtPoints : CeedOperatorCreate)(ceed, qf_, CEED_QFUNCTION_NONE,
+                                                                        CEED_QFUNCTION_NONE, op_.out()));
+    ok(CeedOperatorSetField(op_, "u", nodes_, basis_, CEED_VECTOR_ACTIVE));
+    ok(CeedOperatorSetField(op_, "data", stored_, CEED_BASIS_NONE, data_));
+    ok(CeedOperatorSetField(op_, "v", nodes_, basis_, CEED_VECTOR_ACTIVE));
+    if (per_cell > 0) ok(CeedOperatorAtPointsSetPoints(op_, coordinates_, x_));
+  }
+  /// For devices of both vendors: 64 KB of shared memory, or what NVIDIA's have.
+  gpu::OperatorText text(int warp_size) const {
+    const CeedProgram *program = nullptr;
+    ok(CeedOperatorGetProgram(op_, &program));
+    const std::size_t shared = warp_size == 64 ? 64 << 10 : 163 << 10;
+    const gpu::Block block{
+        .num_threads = program->at_points ? 192 : 256, .warp_size = warp_size, .shared_bytes = shared};
+    const gpu::FunctionText function(program->qf);
+    return program->at_points ? gpu::cells_text(block, *program, function)
+                              : gpu::elements_text(block, *program, function);
+  }
+
+ private:
+  static constexpr CeedInt num_elem = 2;
+  test::Restriction nodes_, stored_, coordinates_;
+  test::Basis basis_;
+  test::Vector data_, x_;
+  test::QFunction qf_;
+  test::Operator op_;
+};
+
+/// Whole operators, with what NVIDIA's compiler says of registers and spills: the table of docs/performance/gpu.md.
+/// What is spilled are a few numbers of kernels that leave room for more threads (1024 at quadrature points).
+TEST_P(VendorTest, CompilesTheBakeoffProblems) {
+  const test::TemporaryFolder cache;  // what is found there says nothing
+  const char *usual = std::getenv("CEED_CACHE_DIR");
+  const std::string before = usual != nullptr ? usual : "";
+  ::setenv("CEED_CACHE_DIR", cache.path().c_str(), 1);
+  const test::CeedHandle ceed(test::open("/cpu/self/ref"));
+  const bool is_cuda = &target().vendor == &cuda::vendor;
+  const std::regex used("Used ([0-9]+) registers"), spilled("([0-9]+) bytes spill stores");
+  for (const CeedInt per_cell : {0, 27}) {
+    for (const char *problem : {"bp1", "bp2", "bp3", "bp4", "bp5", "bp6"}) {
+      const int number = problem[2] - '0';
+      if (per_cell > 0 && number > 4) continue;
+      for (CeedInt p = 1; p <= (per_cell > 0 ? 4 : 8); p++) {
+        const CeedInt num_comp = number % 2 == 0 ? 3 : 1, Q = number > 4 ? p + 1 : p + 2;
+        const BakeoffOperator op(ceed, number > 2, num_comp, p + 1, Q, per_cell);
+        const gpu::OperatorText text = op.text(is_cuda ? 32 : 64);
+        const std::string name = std::string(problem) + (per_cell > 0 ? " at points" : "") + " p=" + std::to_string(p);
+        if (text.text.empty()) {
+          std::printf("%s %s: in stages\n", target().name, name.c_str());
+          EXPECT_GT(num_comp * p, is_cuda ? 18 : 6) << name << " does not fit into shared memory";
+          continue;
+        }
+        std::string log;
+        compiles(name, text.text, &log);
+        std::smatch registers, bytes;
+        if (!is_cuda || !std::regex_search(log, registers, used) || !std::regex_search(log, bytes, spilled)) {
+          EXPECT_FALSE(is_cuda) << log;
+          continue;
+        }
+        std::printf("%s %s: %d x %d threads, %zu KB, %s registers, %s bytes spilled\n", target().name, name.c_str(),
+                    text.num_blocks, text.num_threads, text.shared_bytes >> 10, registers[1].str().c_str(),
+                    bytes[1].str().c_str());
+        EXPECT_LE(std::stoi(bytes[1]), per_cell > 0 ? 144 : p <= 4 ? 72 : 168) << name;
+      }
+    }
+  }
+  if (usual != nullptr) {
+    ::setenv("CEED_CACHE_DIR", before.c_str(), 1);
+  } else {
+    ::unsetenv("CEED_CACHE_DIR");
   }
 }
 

@@ -14,6 +14,7 @@ const char *const required[] = {
     "/cpu/self/avx/blocked",
     "/cpu/self/avx/serial",
     "/cpu/self/gen",
+    "/gpu/emu/gen",
     "/gpu/emu/ref",
 };
 

@@ -39,6 +39,9 @@ struct Emulated {
     name##_of_thread(*static_cast<const Job *>(job)); \
   }                                                   \
   static void name##_of_thread(const Job &job)
+#define HG_KERNEL_OF(name, Job, most, blocks) HG_KERNEL(name, Job)
+#define HG_UNROLL
+#define HG_ROLLED
 #define HG_SHARED(name) const hg::gpu::Shared name(0)
 
 namespace hg::gpu {
@@ -121,6 +124,22 @@ class Shared {
  private:
   ptrdiff_t first_;
 };
+using SharedArray = Shared;
+struct Pair {
+  double first, second;
+};
+inline Pair read_pair(SharedArray array, int place) {
+  return {array[place], array[place + 1]};
+}
+inline void write_pair(SharedArray array, int place, Pair pair) {
+  array[place] = pair.first;
+  array[place + 1] = pair.second;
+}
+
+inline void atomic_add(double *to, double value) {
+  *to += value;
+}
+inline void prefetch(const void *) {}
 
 }  // namespace hg::gpu
 

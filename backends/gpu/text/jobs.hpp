@@ -80,5 +80,37 @@ struct QFunctionJob {
   int *failed;  ///< what the function returned, where that was not 0; NULL: it returns nothing else
 };
 
+/// An L-vector and the way to it: offsets of nodes, as restrictions have them (at points the ids of points, with the
+/// starts of the elements before them), or else strides.
+struct Side {
+  enum Access : CeedSize {
+    add_shared,  ///< other threads may add to the same entries
+    add_own,     ///< nobody else does
+    set,         ///< nobody else does, and there are no values yet
+  };
+  CeedScalar *values = nullptr;
+  const CeedInt *offsets = nullptr;
+  CeedSize node_stride = 0, comp_stride = 0, elem_stride = 0;
+  Access access = add_shared;
+};
+
+/// What a whole operator gets, beside its sides and the numbers that are told with each call.
+struct OperatorFacts {
+  CeedSize num_elem = 0;
+  const CeedScalar *tables = nullptr;  ///< numbers that are too many to be told with each call
+  void *context = nullptr;
+  int *failed = nullptr;            ///< see QFunctionJob
+  Side points{};                    ///< at points: coordinates
+  const CeedInt *groups = nullptr;  ///< at points: block b takes the cells [groups[b], groups[b+1])
+  const CeedInt *elem = nullptr;    ///< at points: the cell of each one
+};
+template <int num_sources, int num_sinks, int num_numbers>
+struct OperatorJob {
+  OperatorFacts facts;
+  Side sources[num_sources];
+  Side sinks[num_sinks];
+  CeedScalar numbers[num_numbers];
+};
+
 }  // namespace hg::gpu
 #endif

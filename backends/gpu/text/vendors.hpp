@@ -6,7 +6,17 @@
 #define CEED_QFUNCTION_HELPER static __device__ inline
 #define HG_DEVICE __device__ inline
 #define HG_KERNEL(name, Job) extern "C" __global__ void __launch_bounds__(256) name(const Job job)
-#define HG_SHARED(name) extern __shared__ double name[]
+/// The same for blocks of `most` threads, `blocks` of which a processor is to hold, and a job that is read as it is
+/// needed.
+#ifdef __CUDACC_RTC__
+#define HG_KERNEL_OF(name, Job, most, blocks) \
+  extern "C" __global__ void __launch_bounds__(most, blocks) name(const __grid_constant__ Job job)
+#else
+#define HG_KERNEL_OF(name, Job, most, blocks) extern "C" __global__ void __launch_bounds__(most) name(const Job job)
+#endif
+#define HG_UNROLL _Pragma("unroll")
+#define HG_ROLLED _Pragma("unroll 1")
+#define HG_SHARED(name) extern __shared__ __align__(16) double name[]
 
 typedef decltype(static_cast<char *>(nullptr) - static_cast<char *>(nullptr)) ptrdiff_t;
 typedef int int32_t;
@@ -39,6 +49,26 @@ __device__ inline ptrdiff_t index() {
 }
 __device__ inline void barrier() {
   __syncthreads();
+}
+using SharedArray = double *;
+/// Two numbers of shared memory from an even place on.
+struct alignas(16) Pair {
+  double first, second;
+};
+__device__ inline Pair read_pair(SharedArray array, int place) {
+  return *reinterpret_cast<const Pair *>(array + place);
+}
+__device__ inline void write_pair(SharedArray array, int place, Pair pair) {
+  *reinterpret_cast<Pair *>(array + place) = pair;
+}
+__device__ inline void atomic_add(double *to, double value) {
+  atomicAdd(to, value);
+}
+/// Brings a line of memory nearer.
+__device__ inline void prefetch([[maybe_unused]] const void *place) {
+#ifdef __CUDACC_RTC__
+  asm volatile("prefetch.global.L2 [%0];" ::"l"(place));
+#endif
 }
 
 }  // namespace hg::gpu

@@ -1,0 +1,136 @@
+#include "function_text.hpp"
+
+#include <cctype>
+#include <string_view>
+
+#include "../host/access.hpp"
+#include "../jit/flatten.hpp"
+#include "../jit/source.hpp"
+#include "texts.hpp"
+
+namespace hg::gpu {
+
+using host::chk;
+
+namespace {
+
+/// A text without its comments.
+std::string without_comments(std::string_view text) {
+  std::string code;
+  for (std::size_t i = 0; i < text.size(); i++) {
+    const std::string_view two = text.substr(i, 2);
+    if (two != "//" && two != "/*") {
+      code += text[i];
+      continue;
+    }
+    const auto end = text.find(two == "//" ? "\n" : "*/", i + 2);
+    if (end == std::string_view::npos) break;
+    i = two == "//" ? end - 1 : end + 1;
+  }
+  return code;
+}
+
+/// Whether a QFunction returns other things than 0 and the name of success, by its text; so do those whose body is not
+/// found.
+bool may_fail(const std::string &text, const std::string &function) {
+  const std::string code = without_comments(text);
+  const auto name = code.find("CEED_QFUNCTION(" + function + ")");
+  const auto begin = name == std::string::npos ? name : code.find('{', name);
+  if (begin == std::string::npos) return true;
+  auto end = begin;
+  for (int depth = 0; end < code.size(); end++) {
+    depth += code[end] == '{' ? 1 : code[end] == '}' ? -1 : 0;
+    if (depth == 0) break;
+  }
+  const std::string_view body = std::string_view(code).substr(begin, end - begin), word = "return";
+  for (auto at = body.find(word); at != std::string_view::npos; at = body.find(word, at + 1)) {
+    std::string value(body.substr(at + word.size(), body.find(';', at) - at - word.size()));
+    std::erase_if(value, [](unsigned char c) { return std::isspace(c) != 0; });
+    if (value != "0" && value != "CEED_ERROR_SUCCESS") return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+FunctionText::FunctionText(CeedQFunction qf) {
+  const jit::Source source = jit::Source::of(qf);
+  const std::string function = jit::flatten(source);
+  const jit::Defines defines = jit::lines_of(source.defines);
+  CeedInt vector_length = 1;
+  chk(CeedQFunctionGetVectorLength(qf, &vector_length));
+  name = source.function;
+  may_fail = gpu::may_fail(function, source.function);
+  text = define("CEED_Q_VLA", std::to_string(vector_length)) + first_text() + defines.begin + function + defines.end +
+         define("HG_QFUNCTION", "::" + source.function);
+}
+
+std::string define(const std::string &name, const std::string &value) {
+  return "#define " + name + ' ' + value + '\n';
+}
+
+FunctionState::FunctionState(Device &device, CeedQFunction qf, bool may_fail)
+    : device_(&device), qf_(qf), may_fail_(may_fail) {}
+
+FunctionState::~FunctionState() {
+  CeedQFunctionContextDestroy(&uploaded_);
+}
+
+namespace {
+
+/// A context that is held, and its data read, for a scope.
+class HeldContext {
+ public:
+  explicit HeldContext(CeedQFunction qf) { chk(CeedQFunctionGetInnerContext(qf, &context_)); }
+  HeldContext(const HeldContext &) = delete;
+  HeldContext &operator=(const HeldContext &) = delete;
+  ~HeldContext() {
+    if (data_ != nullptr) CeedQFunctionContextRestoreDataRead(context_, &data_);
+    CeedQFunctionContextDestroy(&context_);
+  }
+  CeedQFunctionContext get() const { return context_; }
+  const void *read() {
+    chk(CeedQFunctionContextGetDataRead(context_, CEED_MEM_HOST, &data_));
+    return data_;
+  }
+  void release() { chk(CeedQFunctionContextRestoreDataRead(context_, &data_)); }
+
+ private:
+  CeedQFunctionContext context_ = nullptr;
+  const void *data_ = nullptr;
+};
+
+}  // namespace
+
+void *FunctionState::context() {
+  HeldContext context(qf_);
+  if (context.get() == nullptr) return nullptr;
+  std::uint64_t state = 0;
+  std::size_t size = 0;
+  chk(CeedQFunctionContextGetState(context.get(), &state));
+  chk(CeedQFunctionContextGetContextSize(context.get(), &size));
+  if (context_ && context.get() == uploaded_ && state == context_state_) return context_.as<void>();
+  const void *data = context.read();
+  if (!context_ || context_.num_bytes() != size) context_ = device_->allocate(size);
+  device_->driver().copy_to_device(context_.as<void>(), data, size);
+  context.release();
+  chk(CeedQFunctionContextReferenceCopy(context.get(), &uploaded_));
+  context_state_ = state;
+  return context_.as<void>();
+}
+
+int *FunctionState::clear_failed() {
+  if (!may_fail_) return nullptr;
+  constexpr int none = 0;
+  if (!failed_) failed_ = device_->allocate(sizeof none);
+  device_->driver().copy_to_device(failed_.as<void>(), &none, sizeof none);
+  return failed_.as<int>();
+}
+
+int FunctionState::returned() {
+  int code = 0;
+  if (may_fail_) device_->driver().copy_to_host(&code, failed_.as<void>(), sizeof code);
+  return code;
+}
+
+}  // namespace hg::gpu

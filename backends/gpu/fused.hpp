@@ -1,0 +1,43 @@
+/// @file
+/// Operators as one kernel.
+#pragma once
+
+#include <ceed/plugin.h>
+
+#include <memory>
+#include <vector>
+
+#include "basis.hpp"
+#include "device.hpp"
+#include "operator_text.hpp"
+
+namespace hg::gpu {
+
+/// v += Σ_e R_e^T B^T D(B R_e u) in one launch: nothing but the L-vectors and what is stored at points is in memory.
+/// Nothing is compiled again when points move or values change. One thread at a time.
+class FusedOperator {
+ public:
+  /// NULL where the program is not taken; see operator_text.hpp. Throws jit::NoSource where the QFunction came without
+  /// text, jit::NotCompiled or DeviceError where that cannot be compiled.
+  static std::unique_ptr<FusedOperator> make(Device &device, const CeedProgram &program);
+
+  void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  std::size_t num_bytes() const { return sizeof *this + tables_.num_bytes() + groups_.num_bytes() + elem_.num_bytes(); }
+
+ private:
+  FusedOperator(Device &device, const CeedProgram &program, const FunctionText &function, OperatorText text);
+  void group(const CeedProgram &program);
+
+  Device &device_;
+  FunctionState state_;
+  OperatorText text_;
+  std::unique_ptr<Module> module_;
+  Kernel kernel_;
+  Buffer tables_;
+  // At points, as long as they are where they are:
+  CeedSize points_epoch_ = -1;
+  CeedInt num_groups_ = 0, most_cells_ = 0;
+  Buffer groups_, elem_;
+};
+
+}  // namespace hg::gpu

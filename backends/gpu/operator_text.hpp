@@ -1,0 +1,57 @@
+/// @file
+/// One kernel for a whole operator: its text, printed from the operator's program.
+#pragma once
+
+#include <ceed/plugin.h>
+
+#include <string>
+#include <vector>
+
+#include "function_text.hpp"
+
+namespace hg::gpu {
+
+/// A text with the kernel `hg_operator`, and what it is launched with.
+struct OperatorText {
+  std::string text;                 ///< empty where the program is not one that is taken
+  std::vector<CeedScalar> numbers;  ///< OperatorJob::numbers
+  std::vector<CeedScalar> tables;   ///< OperatorFacts::tables
+  CeedInt num_elem = 1;             ///< elements of a block; at points the most of them
+  int num_threads = 0;              ///< of a block; at points a block's points as well, where a cell has no more
+  int num_blocks = 1;               ///< that a processor is to hold
+  std::size_t shared_bytes = 0;     ///< of a block
+  std::size_t bytes_of_cell = 0;    ///< at points: and as many for each of a block's cells
+};
+
+/// What a block may have.
+struct Block {
+  int num_threads = 256;  ///< at most
+  int warp_size = 32;
+  std::size_t shared_bytes = 0;  ///< at most; three blocks should find room where one processor has as much for all
+
+  int whole_warps(int threads) const { return (threads + warp_size - 1) / warp_size * warp_size; }
+};
+
+/// An operator at quadrature points. Not taken: restrictions with orientations or in blocks, QFunctions for several
+/// points at a time, and what does not fit into the shared memory of a block.
+OperatorText elements_text(const Block &block, const CeedProgram &program, const FunctionText &function);
+/// An operator at points of the elements' own; the same is not taken.
+OperatorText cells_text(const Block &block, const CeedProgram &program, const FunctionText &function);
+
+// What both have.
+
+/// Numbers that can be told with each call: jobs have at most 4 KB.
+constexpr std::size_t most_numbers = 360;
+/// Whether the restrictions and the QFunction of a program are such as kernels take.
+bool is_taken(const CeedProgram &program);
+/// Whether no other sink has the vector of this one.
+bool is_alone(const CeedProgram &program, CeedInt sink);
+/// The text before the kernel's own lines: the QFunction, constants, the text `name` of text/, and the job's type.
+std::string begin_text(const CeedProgram &program, const FunctionText &function, const char *name,
+                       const OperatorText &text);
+/// Calls the QFunction for one point, from in0, in1, ... to out0, out1, ...
+std::vector<std::string> call_lines(const CeedProgram &program);
+/// Where `values` are in `all`, which gets them where it does not have them.
+int keep(std::vector<CeedScalar> &all, const std::vector<CeedScalar> &values);
+
+}  // namespace hg::gpu
