@@ -83,9 +83,6 @@ class CellPrinter {
     int numbers;
     bool is_integrated = false;
   };
-  static bool is_evaluated(const CeedProgramField &field) {
-    return field.eval_mode != CEED_EVAL_NONE && field.eval_mode != CEED_EVAL_WEIGHT;
-  }
 
   Space space(CeedBasis basis) {
     Space s;

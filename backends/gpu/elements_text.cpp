@@ -98,11 +98,10 @@ class ElementPrinter {
     sink_shapes_.resize(program_.num_sinks);
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
-      if (field.eval_mode == CEED_EVAL_NONE || field.eval_mode == CEED_EVAL_WEIGHT) continue;
+      if (!is_evaluated(field)) continue;
       Evaluation &e = evaluation_of(evaluations_, field, true);
       int &place = e.array_of(field);
       if (place < 0) place = i;
-      same_as_.push_back({i, place});
       if (sources_[field.side] >= 0) continue;
       const Shape nodes = nodes_of(field.space);
       sources_[field.side] = new_array("nodes", nodes);
@@ -117,7 +116,7 @@ class ElementPrinter {
     }
     for (CeedInt o = 0; o < program_.num_outputs; o++) {
       const CeedProgramField &field = program_.outputs[o];
-      if (field.eval_mode != CEED_EVAL_NONE) evaluation_of(integrations_, field, false).array_of(field) = o;
+      if (is_evaluated(field)) evaluation_of(integrations_, field, false).array_of(field) = o;
     }
     last_ = evaluations_.empty() ? 0 : 1;
   }
@@ -244,7 +243,7 @@ class ElementPrinter {
     const BasisFactors &basis = bases_[e.space];
     const CeedInt dim = basis.num_directions;
     const Shape nodes = nodes_of(e.space), points = points_of(e.space);
-    const auto output = [&](int o, int phase, CeedInt g = 0) { return use(outputs_[o].array, phase, points, g); };
+    const auto output = [&](int o, int phase, CeedInt g = 0) { return use(outputs_[o], phase, points, g); };
     const int start = call_ + 1;
     bool add = sums_[e.side] >= 0;
     sink_shapes_[e.side] = nodes;
@@ -265,7 +264,7 @@ class ElementPrinter {
             phase++;
           }
         } else if (e.interp >= 0) {
-          values = outputs_[e.interp].array;
+          values = outputs_[e.interp];
           has_values = true;
         } else {
           values = new_array("back", points);
@@ -336,8 +335,7 @@ class ElementPrinter {
                         is_standard(program_.sources[field.side]) ? "stored" : "scattered", field.size,
                         program_.num_qpts, field.side, i));
     } else {
-      const auto same = std::find_if(same_as_.begin(), same_as_.end(), [&](const SameAs &s) { return s.input == i; });
-      const Values &values = inputs_[same->place];
+      const Values &values = inputs_[evaluation_of(evaluations_, field, true).array_of(field)];
       point(fmt::format("read_values<{}, {}>({}, e, q, in{});", field.size / values.shape.num_comp, values.shape.type(),
                         phases_.use(values.array, call_), i));
     }
@@ -357,10 +355,10 @@ class ElementPrinter {
     }
     const Shape points = points_of(field.space);
     const CeedInt count = field.size / points.num_comp;
-    outputs_[o] = {new_array("flux", points, count), points};
-    phases_.replaces(outputs_[o].array, call_);
+    outputs_[o] = new_array("flux", points, count);
+    phases_.replaces(outputs_[o], call_);
     point(fmt::format("write_values<{}, {}>(out{}, e, q, {});", count, points.type(), o,
-                      phases_.use(outputs_[o].array, call_)));
+                      phases_.use(outputs_[o], call_)));
   }
 
   /// Elements of a block: as many as fill its warps best.
@@ -396,10 +394,6 @@ class ElementPrinter {
     int array = -1;
     Shape shape;
   };
-  /// An input and the one whose array it has.
-  struct SameAs {
-    CeedInt input, place;
-  };
   const Block &block_;
   const CeedProgram &program_;
   const FunctionText &function_;
@@ -407,8 +401,8 @@ class ElementPrinter {
   Phases phases_;
   OperatorText text_;
   std::vector<Evaluation> evaluations_, integrations_;
-  std::vector<SameAs> same_as_;
-  std::vector<Values> inputs_, outputs_;
+  std::vector<Values> inputs_;       ///< of the first input that has them
+  std::vector<int> outputs_;         ///< arrays
   std::vector<int> sources_, sums_;  ///< arrays of nodes, or -1
   std::vector<Shape> sink_shapes_;
   std::vector<std::string> point_;  ///< what is done at a point

@@ -44,6 +44,10 @@ OperatorText cells_text(const Block &block, const CeedProgram &program, const Fu
 constexpr std::size_t most_numbers = 360;
 /// Whether the restrictions and the QFunction of a program are such as kernels take.
 bool is_taken(const CeedProgram &program);
+/// Whether a field goes through a basis.
+inline bool is_evaluated(const CeedProgramField &field) {
+  return field.eval_mode != CEED_EVAL_NONE && field.eval_mode != CEED_EVAL_WEIGHT;
+}
 /// Whether no other sink has the vector of this one.
 bool is_alone(const CeedProgram &program, CeedInt sink);
 /// The text before the kernel's own lines: the QFunction, constants, the text `name` of text/, and the job's type.

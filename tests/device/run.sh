@@ -69,6 +69,7 @@ suite=$(find "$build" -name ceed-conformance -type f -perm -u+x | head -1)
 for resource in "${resources[@]}"; do
   step "Conformance: $resource"
   log=$out/conformance$(tr / _ <<<"$resource")
+  rm -f "$log".*.log
   parts=()
   for part in $(seq 0 $((jobs - 1))); do
     GTEST_TOTAL_SHARDS=$jobs GTEST_SHARD_INDEX=$part "$suite" --ceed "$resource" > "$log.$part.log" 2>&1 &
