@@ -54,12 +54,12 @@ int get_memory(CeedOperator op, CeedSize *bytes) {
   });
 }
 
-/// A function of the parent that assembles, with the QFunction compiled.
-template <auto function, typename... Args>
-int assemble(CeedOperator op, const CeedProgram *program, Args... args) {
+/// As the parent does, with the QFunction compiled.
+int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedInt first_elem, CeedInt num_elem,
+                              CeedVector values) {
   return host::wall(CeedOperatorReturnCeed(op), [&] {
     if (Operator *own = operator_of(op); own != nullptr) own->prepare_assembly(*program);
-    host::chk((parents_tables.op.*function)(op, program, args...));
+    host::chk(parents_tables.op.linear_assemble_qfunction(op, program, first_elem, num_elem, values));
   });
 }
 
@@ -73,11 +73,7 @@ int init(Ceed, const char *, CeedBackendOps *ops) {
   ops->op.destroy = destroy;
   ops->op.apply_add = apply_add;
   ops->op.get_memory = get_memory;
-  ops->op.linear_assemble_qfunction = assemble<&CeedOperatorOps::linear_assemble_qfunction>;
-  if (ops->op.linear_assemble_add_diagonal != nullptr) {
-    ops->op.linear_assemble_add_diagonal = assemble<&CeedOperatorOps::linear_assemble_add_diagonal>;
-  }
-  if (ops->op.linear_assemble != nullptr) ops->op.linear_assemble = assemble<&CeedOperatorOps::linear_assemble>;
+  ops->op.linear_assemble_qfunction = linear_assemble_qfunction;
   return CEED_ERROR_SUCCESS;
 }
 

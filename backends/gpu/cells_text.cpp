@@ -5,7 +5,7 @@
 
 #include "../host/access.hpp"
 #include "../host/fields.hpp"
-#include "operator_text.hpp"
+#include "assembly_text.hpp"
 
 namespace hg::gpu {
 
@@ -15,8 +15,12 @@ namespace {
 
 class CellPrinter {
  public:
-  CellPrinter(const Block &block, const CeedProgram &program, const FunctionText &function)
-      : program_(program), function_(function), spaces_(program.num_spaces) {
+  CellPrinter(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose)
+      : program_(program),
+        function_(function),
+        applies_(purpose == Purpose::apply),
+        assembly_(program, purpose),
+        spaces_(program.num_spaces) {
     chk(CeedElemRestrictionGetNumComponents(program.points_rstr, &dim_));
     text_.num_threads = block.num_threads;
     most_shared_ = block.shared_bytes;
@@ -28,11 +32,11 @@ class CellPrinter {
   OperatorText print() {
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
-      if (!is_evaluated(field)) continue;
+      if (!is_read(field) || !is_evaluated(field)) continue;
       Evaluation &e = evaluation_of(evaluations_, field, true);
       if (e.array_of(field) < 0) e.array_of(field) = i;
     }
-    for (CeedInt o = 0; o < program_.num_outputs; o++) {
+    for (CeedInt o = 0; applies_ && o < program_.num_outputs; o++) {
       const CeedProgramField &field = program_.outputs[o];
       if (is_evaluated(field)) evaluation_of(integrations_, field, false).array_of(field) = o;
     }
@@ -55,23 +59,38 @@ class CellPrinter {
     line("  if (point < end) {{");
     at_point();
     line("  }}");
-    if (!integrations_.empty()) line("  barrier();");
+    if (has_lanes()) {
+      line("  barrier();");
+      line("  const PointLanes lanes{{starts + first, begin}};");
+    }
+    for (std::size_t f = 0; f < functions_.size(); f++) {
+      if (!functions_[f].is_kept) continue;
+      line("  const PointFunctions<{0}, {1}> at{2}{{shared + functions{2}}};", dim_, functions_[f].P, f);
+    }
     for (const Evaluation &e : integrations_) {
       const Space &s = spaces_[e.space];
       const auto flux = [&](int o) { return o < 0 ? "shared" : fmt::format("shared + flux{}", o); };
-      line(
-          "  integrate_cells<{}, {}, {}, {}, {}>(job.sinks[{}], starts, first, count, begin, shared + functions{}, {}, "
-          "{});",
-          dim_, s.P, s.num_comp, e.interp >= 0, e.derivative >= 0, e.side, s.functions, flux(e.interp),
-          flux(e.derivative));
+      line("  integrate_cells<{}, {}, {}, {}, {}>(job.sinks[{}], first, count, lanes, at{}, {}, {});", dim_, s.P,
+           s.num_comp, e.interp >= 0, e.derivative >= 0, e.side, s.functions, flux(e.interp), flux(e.derivative));
+    }
+    if (contracts()) {
+      line("  const {} matrices{{shared + columns}};", assembly_.matrices_type());
+      const auto functions_of = [&](CeedInt space) { return functions_text(spaces_[space]); };
+      for (const std::string &text : assembly_.contraction_lines(functions_of)) line("  {}", text);
     }
     line("}}");
-    text_.text = begin_text(program_, function_, "cells.hpp", text_) + (has_shared() ? "  HG_SHARED(shared);\n" : "") +
-                 declarations_ + lines_ + "}\n}\n";
+    text_.text = (applies_ ? begin_text(program_, function_, {"sides.hpp", "cells.hpp"}, text_)
+                           : begin_text(program_, function_, {"sides.hpp", "cells.hpp", "assembly.hpp"}, text_)) +
+                 (has_shared() ? "  HG_SHARED(shared);\n" : "") + declarations_ + lines_ + "}\n}\n";
     return std::move(text_);
   }
 
  private:
+  /// Active inputs of an assembly are unit values.
+  bool is_read(const CeedProgramField &field) const { return applies_ || field.first_value < 0; }
+  bool contracts() const { return !applies_ && assembly_.is_contracted(); }
+  /// Whether anything is done with what the points of a cell have left.
+  bool has_lanes() const { return !integrations_.empty() || contracts(); }
   bool has_shared() const { return text_.shared_bytes + text_.bytes_of_cell > 0; }
   /// A space; `functions`: which of the distinct sets of functions it has.
   struct Space {
@@ -81,7 +100,7 @@ class CellPrinter {
   struct Functions {
     CeedInt P, K;
     int numbers;
-    bool is_integrated = false;
+    bool is_kept = false;  ///< in shared memory, for what comes after the points
   };
 
   Space space(CeedBasis basis) {
@@ -100,6 +119,16 @@ class CellPrinter {
     return s;
   }
   std::string cell_of(const Space &s) const { return fmt::format("Cell<{}, {}, {}>", dim_, s.P, s.num_comp); }
+  FunctionsText functions_text(const Space &s) const {
+    FunctionsText text{.tile = fmt::format("ProductTile<PointFunctions<{0}, {1}>, {0}, {1}", dim_, s.P),
+                       .functions = fmt::format("at{}", s.functions),
+                       .num_nodes = CeedIntPow(s.P, dim_),
+                       .in_line = s.P,
+                       .kinds = {0},
+                       .derivative_kinds = {}};
+    for (CeedInt d = 0; d < dim_; d++) text.derivative_kinds.push_back(1 + d);
+    return text;
+  }
   /// As text/cells.hpp has them.
   static CeedInt odd_pairs(CeedInt size) { return 2 * ((size + 1) / 2 | 1); }
   CeedInt cell_size(const Space &s) const {
@@ -119,13 +148,21 @@ class CellPrinter {
       declarations_ += fmt::format("  constexpr int {} = threads * {};\n", name, of_point);
       of_point += odd_pairs(size);
     };
+    const auto keep_functions = [&](CeedInt space) {
+      Functions &f = functions_[spaces_[space].functions];
+      if (!f.is_kept) add(fmt::format("functions{}", spaces_[space].functions), 2 * dim_ * f.P);
+      f.is_kept = true;
+    };
     for (const Evaluation &e : integrations_) {
-      Functions &f = functions_[spaces_[e.space].functions];
-      if (!f.is_integrated) add(fmt::format("functions{}", spaces_[e.space].functions), 2 * dim_ * f.P);
-      f.is_integrated = true;
+      keep_functions(e.space);
       for (const int o : {e.interp, e.derivative}) {
         if (o >= 0) add(fmt::format("flux{}", o), program_.outputs[o].size);
       }
+    }
+    if (contracts()) {
+      for (const CeedInt space : assembly_.spaces()) keep_functions(space);
+      declarations_ += fmt::format("  constexpr int columns = threads * {};\n", of_point);
+      of_point += assembly_.matrix_size();
     }
     nodes_.resize(program_.num_sources);
     for (CeedInt s = 0; s < program_.num_sources; s++) {
@@ -156,6 +193,7 @@ class CellPrinter {
     constexpr int few = 80, enough_for_few = 96, other = 16;
     const int wanted = 2 * numbers + other <= enough_for_few ? few : 2 * numbers + other;
     text_.num_blocks = 1;
+    if (!applies_) return;
     while (registers(text_.num_blocks + 1) >= wanted) text_.num_blocks++;
   }
   /// Of a thread, where a processor holds so many blocks: a quarter of its 65536 are for a quarter of the warps.
@@ -169,19 +207,20 @@ class CellPrinter {
     if (!evaluations_.empty()) {
       line("    const int cell = job.facts.elem[point - starts[0]] - first;");
     }
-    if (!evaluations_.empty() || !integrations_.empty()) {
+    if (!evaluations_.empty() || has_lanes()) {
       line("    CeedScalar x[{}];", dim_);
       line("    read_point<{}>(job.facts.points, point, x);", dim_);
     }
     for (std::size_t f = 0; f < functions_.size(); f++) {
       const Functions &functions = functions_[f];
+      if (evaluations_.empty() && !functions.is_kept) continue;
       line("    Functions<{}, {}> at{};", dim_, functions.P, f);
       line("    at{}.evaluate<{}>(job.numbers + {}, x);", f, functions.K, functions.numbers);
-      if (functions.is_integrated) line("    at{0}.write(shared + functions{0}, thread());", f);
+      if (functions.is_kept) line("    at{0}.write(shared + functions{0}, thread());", f);
     }
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
-      if (!is_first(i)) continue;
+      if (!is_read(field) || !is_first(i)) continue;
       line("    CeedScalar in{}[{}];", i, field.size);
       if (field.eval_mode == CEED_EVAL_WEIGHT) line("    in{}[0] = 1;", i);
       if (field.eval_mode == CEED_EVAL_NONE) {
@@ -196,8 +235,18 @@ class CellPrinter {
            array(e.derivative));
     }
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
-      if (!is_first(i)) line("    CeedScalar *const in{} = in{};", i, first_of(i));
+      if (is_read(program_.inputs[i]) && !is_first(i)) line("    CeedScalar *const in{} = in{};", i, first_of(i));
     }
+    if (!applies_) {
+      const std::string write =
+          assembly_.is_contracted()
+              ? fmt::format("{}{{shared + columns}}.write_column(thread(), i, column);", assembly_.matrices_type())
+              : fmt::format("write_column<{}, {}>(column, job.facts.entries, point - starts[0], i);",
+                            program_.num_active_in, program_.num_active_out);
+      for (const std::string &text : assembly_.column_lines(write)) line("    {}", text);
+      return;
+    }
+    for (const std::string &text : output_lines(program_)) line("    {}", text);
     for (const std::string &text : call_lines(program_)) line("    {}", text);
     for (CeedInt o = 0; o < program_.num_outputs; o++) {
       const CeedProgramField &field = program_.outputs[o];
@@ -222,6 +271,8 @@ class CellPrinter {
 
   const CeedProgram &program_;
   const FunctionText &function_;
+  bool applies_;
+  AssemblyText assembly_;
   CeedInt dim_ = 0, of_cell_ = 0;
   std::size_t most_shared_ = 0;
   std::vector<Functions> functions_;
@@ -234,11 +285,11 @@ class CellPrinter {
 
 }  // namespace
 
-OperatorText cells_text(const Block &block, const CeedProgram &program, const FunctionText &function) {
-  if (!is_taken(program) || program.num_outputs == 0) return {};
+OperatorText cells_text(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose) {
+  if (!is_taken(program) || program.num_outputs == 0 || !AssemblyText(program, purpose).is_taken()) return {};
   Block smaller = block;
   for (; smaller.num_threads >= block.warp_size; smaller.num_threads -= block.warp_size) {
-    OperatorText text = CellPrinter(smaller, program, function).print();
+    OperatorText text = CellPrinter(smaller, program, function, purpose).print();
     if (!text.text.empty()) return text;
   }
   return {};

@@ -8,7 +8,7 @@
 #include "../host/access.hpp"
 #include "../host/basis_factors.hpp"
 #include "../host/fields.hpp"
-#include "operator_text.hpp"
+#include "assembly_text.hpp"
 #include "phases.hpp"
 #include "restriction.hpp"
 
@@ -29,8 +29,12 @@ struct Shape {
 
 class ElementPrinter {
  public:
-  ElementPrinter(const Block &block, const CeedProgram &program, const FunctionText &function)
-      : block_(block), program_(program), function_(function) {
+  ElementPrinter(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose)
+      : block_(block),
+        program_(program),
+        function_(function),
+        applies_(purpose == Purpose::apply),
+        assembly_(program, purpose) {
     for (CeedInt i = 0; i < program.num_spaces; i++) bases_.emplace_back(program.spaces[i].basis);
   }
 
@@ -41,13 +45,20 @@ class ElementPrinter {
     for (Evaluation &e : evaluations_) evaluate(e);
     call_ = last_;
     point(fmt::format("const int e = i / {0}, q = i % {0};", program_.num_qpts));
-    for (CeedInt i = 0; i < program_.num_inputs; i++) take_input(i);
-    for (CeedInt o = 0; o < program_.num_outputs; o++) take_output(o);
+    for (CeedInt i = 0; i < program_.num_inputs; i++) {
+      if (is_read(program_.inputs[i])) take_input(i);
+    }
+    if (applies_) {
+      for (CeedInt o = 0; o < program_.num_outputs; o++) take_output(o);
+    } else {
+      take_columns();
+    }
     phases_.step(call_, "HG_ROLLED for (int i = thread(); i < count * " + std::to_string(program_.num_qpts) +
                             "; i += threads) {");
     for (const std::string &line : point_) phases_.step(call_, "  " + line);
     phases_.step(call_, "}");
     last_ = call_;
+    if (contracts()) contract_columns();
     std::vector<int> free_from(program_.num_sinks, call_ + 1);
     for (const Evaluation &e : integrations_) free_from[e.side] = integrate(e, free_from[e.side]);
     for (CeedInt t = 0; t < program_.num_sinks; t++) {
@@ -61,6 +72,9 @@ class ElementPrinter {
   }
 
  private:
+  /// Active inputs of an assembly are unit values.
+  bool is_read(const CeedProgramField &field) const { return applies_ || field.first_value < 0; }
+  bool contracts() const { return !applies_ && assembly_.is_contracted(); }
   static bool comp_first(const CeedProgramSide &side) {
     const CeedElementMap &map = map_of(side.rstr);
     return map.num_comp > 1 && (map.offsets != nullptr ? map.comp_stride : map.strides[1]) == 1;
@@ -98,7 +112,7 @@ class ElementPrinter {
     sink_shapes_.resize(program_.num_sinks);
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
-      if (!is_evaluated(field)) continue;
+      if (!is_read(field) || !is_evaluated(field)) continue;
       Evaluation &e = evaluation_of(evaluations_, field, true);
       int &place = e.array_of(field);
       if (place < 0) place = i;
@@ -110,11 +124,12 @@ class ElementPrinter {
                                   phases_.use(sources_[field.side], 0)));
     }
     for (CeedInt s = 0; s < program_.num_sources; s++) {
-      if (sources_[s] >= 0 || !is_standard(program_.sources[s])) continue;
+      const bool is_read = applies_ || !program_.sources[s].is_active;
+      if (!is_read || sources_[s] >= 0 || !is_standard(program_.sources[s])) continue;
       const CeedElementMap &map = map_of(program_.sources[s].rstr);
       phases_.step(0, fmt::format("ask_for<{}>(job.sources[{}], first, count);", map.elem_size * map.num_comp, s));
     }
-    for (CeedInt o = 0; o < program_.num_outputs; o++) {
+    for (CeedInt o = 0; applies_ && o < program_.num_outputs; o++) {
       const CeedProgramField &field = program_.outputs[o];
       if (is_evaluated(field)) evaluation_of(integrations_, field, false).array_of(field) = o;
     }
@@ -343,6 +358,7 @@ class ElementPrinter {
 
   void take_output(CeedInt o) {
     if (o == 0) {
+      for (const std::string &line : output_lines(program_)) point(line);
       for (const std::string &line : call_lines(program_)) point(line);
     }
     const CeedProgramField &field = program_.outputs[o];
@@ -359,6 +375,70 @@ class ElementPrinter {
     phases_.replaces(outputs_[o], call_);
     point(fmt::format("write_values<{}, {}>(out{}, e, q, {});", count, points.type(), o,
                       phases_.use(outputs_[o], call_)));
+  }
+
+  /// The QFunction's matrices, to where they are contracted, or to memory.
+  void take_columns() {
+    const CeedInt Q = program_.num_qpts;
+    std::string write = fmt::format("write_column<{}, {}, {}>(column, job.facts.entries, first + e, q, i);",
+                                    program_.num_active_in, program_.num_active_out, Q);
+    if (contracts()) {
+      const auto size = static_cast<std::size_t>(assembly_.matrix_size()) * Q;
+      columns_ = phases_.array("columns", size, "columns");
+      write = fmt::format("{}{{{}}}.write_column(e * {} + q, i, column);", assembly_.matrices_type(),
+                          phases_.use(columns_, call_), Q);
+    }
+    for (const std::string &line : assembly_.column_lines(write)) point(line);
+  }
+
+  void contract_columns() {
+    const int phase = call_ + 1;
+    phases_.step(phase, fmt::format("const QuadratureLanes<{}> lanes;", program_.num_qpts));
+    phases_.step(phase,
+                 fmt::format("const {} matrices{{{}}};", assembly_.matrices_type(), phases_.use(columns_, phase)));
+    for (const CeedInt space : assembly_.spaces()) {
+      phases_.step(phase, fmt::format("const {} functions{}{{{}}};", functions_type(space), space,
+                                      bases_[space].route == Route::full ? "job.facts.tables" : tables_1d(space)));
+    }
+    const auto functions_of = [&](CeedInt space) { return functions_text(space); };
+    for (const std::string &line : assembly_.contraction_lines(functions_of, &lines_)) phases_.step(phase, line);
+    last_ = phase;
+  }
+  std::string functions_type(CeedInt space) const {
+    const BasisFactors &basis = bases_[space];
+    if (basis.route == Route::full) return "CeedScalar *const";
+    return fmt::format("QuadratureFunctions<{}, {}>", basis.P, basis.Q);
+  }
+  /// Values and derivatives of the nodes' functions at the points, whatever route evaluation takes.
+  std::string tables_1d(CeedInt space) {
+    const CeedBasis basis = program_.spaces[space].basis;
+    const CeedScalar *interp = nullptr, *grad = nullptr;
+    chk(CeedBasisGetInterp1D(basis, &interp));
+    chk(CeedBasisGetGrad1D(basis, &grad));
+    const auto size = static_cast<std::size_t>(bases_[space].P) * bases_[space].Q;
+    return table(interp, size) + ", " + table(grad, size);
+  }
+  FunctionsText functions_text(CeedInt space) {
+    const BasisFactors &basis = bases_[space];
+    FunctionsText text{.tile = {},
+                       .functions = fmt::format("functions{}", space),
+                       .num_nodes = CeedIntPow(basis.P, basis.num_directions),
+                       .in_line = basis.P,
+                       .kinds = {},
+                       .derivative_kinds = {}};
+    if (basis.route != Route::full) {
+      text.tile = fmt::format("ProductTile<{}, {}, {}", functions_type(space), basis.num_directions, basis.P);
+      text.kinds.push_back(0);
+      for (CeedInt d = 0; d < basis.num_directions; d++) text.derivative_kinds.push_back(1 + d);
+      return text;
+    }
+    text.tile = fmt::format("TableTile<{}, {}", basis.P, basis.Q);
+    const auto place = [&](const CeedScalar *factor) {
+      return keep(text_.tables, std::vector<CeedScalar>(factor, factor + static_cast<std::size_t>(basis.P) * basis.Q));
+    };
+    for (const CeedScalar *factor : basis.interp) text.kinds.push_back(place(factor));
+    for (const CeedScalar *factor : basis.derivative) text.derivative_kinds.push_back(place(factor));
+    return text;
   }
 
   /// Elements of a block: as many as fill its warps best.
@@ -382,8 +462,10 @@ class ElementPrinter {
     text_.num_blocks =
         std::max(1, std::min(static_cast<int>(block_.shared_bytes / std::max<std::size_t>(text_.shared_bytes, 1)),
                              threads_of_processor / text_.num_threads));
-    text_.text = begin_text(program_, function_, "elements.hpp", text_) + "  HG_SHARED(shared);\n" +
-                 phases_.declarations() +
+    if (!applies_) text_.num_blocks = 1;
+    text_.text = (applies_ ? begin_text(program_, function_, {"sides.hpp", "elements.hpp"}, text_)
+                           : begin_text(program_, function_, {"sides.hpp", "elements.hpp", "assembly.hpp"}, text_)) +
+                 "  HG_SHARED(shared);\n" + phases_.declarations() +
                  "  const CeedSize first = block() * elems, left = job.facts.num_elem - first;\n"
                  "  const int count = left < elems ? static_cast<int>(left) : elems;\n" +
                  phases_.text() + "}\n}\n";
@@ -397,6 +479,8 @@ class ElementPrinter {
   const Block &block_;
   const CeedProgram &program_;
   const FunctionText &function_;
+  bool applies_;
+  AssemblyText assembly_;
   std::vector<BasisFactors> bases_;
   Phases phases_;
   OperatorText text_;
@@ -406,15 +490,17 @@ class ElementPrinter {
   std::vector<int> sources_, sums_;  ///< arrays of nodes, or -1
   std::vector<Shape> sink_shapes_;
   std::vector<std::string> point_;  ///< what is done at a point
-  int num_arrays_ = 0, call_ = 0, last_ = 0;
+  int num_arrays_ = 0, call_ = 0, last_ = 0, columns_ = -1;
   CeedInt lines_ = 1;  ///< most lines of an element in a step
 };
 
 }  // namespace
 
-OperatorText elements_text(const Block &block, const CeedProgram &program, const FunctionText &function) {
+OperatorText elements_text(const Block &block, const CeedProgram &program, const FunctionText &function,
+                           Purpose purpose) {
   if (!is_taken(program) || program.num_qpts == 0 || program.num_outputs == 0) return {};
-  return ElementPrinter(block, program, function).print();
+  if (!AssemblyText(program, purpose).is_taken()) return {};
+  return ElementPrinter(block, program, function, purpose).print();
 }
 
 }  // namespace hg::gpu

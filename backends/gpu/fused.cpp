@@ -5,9 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "../host/access.hpp"
 #include "restriction.hpp"
-#include "text/jobs.hpp"
 
 namespace hg::gpu {
 
@@ -47,9 +45,31 @@ int block_of_points(const Properties &device, int threads) {
   return std::max(device.warp_size, threads * 3 / 4 / device.warp_size * device.warp_size);
 }
 
+/// Whether two components of nodes of one element are one entry of the L-vector.
+bool meets_itself(CeedElemRestriction rstr) {
+  const CeedElementMap &map = map_of(rstr);
+  std::vector<CeedInt> last_elem(map.l_size, -1);
+  for (CeedInt e = 0; e < map.num_elem; e++) {
+    for (CeedInt n = 0; n < map.elem_size; n++) {
+      const CeedSize node = map.offsets != nullptr
+                                ? map.offsets[static_cast<CeedSize>(e) * map.elem_size + n]
+                                : static_cast<CeedSize>(n) * map.strides[0] + static_cast<CeedSize>(e) * map.strides[2];
+      for (CeedInt c = 0; c < map.num_comp; c++) {
+        const CeedSize step = map.offsets != nullptr ? map.comp_stride : map.strides[1];
+        if (std::exchange(last_elem[node + c * step], e) == e) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool is_diagonal(Purpose purpose) {
+  return purpose == Purpose::diagonal || purpose == Purpose::point_blocks;
+}
+
 }  // namespace
 
-std::unique_ptr<FusedOperator> FusedOperator::make(Device &device, const CeedProgram &program) {
+std::unique_ptr<FusedOperator> FusedOperator::make(Device &device, const CeedProgram &program, Purpose purpose) {
   const FunctionText function(program.qf);
   const Properties &properties = device.driver().properties();
   // At points fewer threads in a block, which have more to keep in shared memory: seven cells of 27 points, three
@@ -58,15 +78,19 @@ std::unique_ptr<FusedOperator> FusedOperator::make(Device &device, const CeedPro
   const Block block{.num_threads = program.at_points ? at_points : device.block_threads(),
                     .warp_size = properties.warp_size,
                     .shared_bytes = properties.shared_per_block};
-  OperatorText text =
-      program.at_points ? cells_text(block, program, function) : elements_text(block, program, function);
+  OperatorText text = program.at_points ? cells_text(block, program, function, purpose)
+                                        : elements_text(block, program, function, purpose);
   if (text.text.empty()) return nullptr;
-  return std::unique_ptr<FusedOperator>(new FusedOperator(device, program, function, std::move(text)));
+  for (CeedInt t = 0; is_diagonal(purpose) && t < program.num_sinks; t++) {
+    if (program.sinks[t].is_active && meets_itself(program.sinks[t].rstr)) return nullptr;
+  }
+  return std::unique_ptr<FusedOperator>(new FusedOperator(device, program, function, std::move(text), purpose));
 }
 
 FusedOperator::FusedOperator(Device &device, const CeedProgram &program, const FunctionText &function,
-                             OperatorText text)
+                             OperatorText text, Purpose purpose)
     : device_(device),
+      purpose_(purpose),
       state_(device, program.qf, function.may_fail),
       text_(std::move(text)),
       module_(device.driver().compile("operator of " + function.name, text_.text)),
@@ -94,22 +118,43 @@ void FusedOperator::group(const CeedProgram &program) {
 }
 
 void FusedOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
-  if (program.at_points && program.points_epoch != points_epoch_) group(program);
   host::ProgramArrays arrays(program, in, out, mode, program.at_points, CEED_MEM_DEVICE);
-  std::vector<Side> sources, sinks;
-  for (CeedInt s = 0; s < program.num_sources; s++) {
-    sources.push_back(side_of(program.sources[s].rstr, arrays.sources()[s]));
-  }
+  std::vector<Side> sinks;
   for (CeedInt t = 0; t < program.num_sinks; t++) {
     sinks.push_back(side_of(program.sinks[t].rstr, arrays.sinks()[t]));
     const bool is_own = map_of(program.sinks[t].rstr).is_copy && is_alone(program, t);
     sinks.back().access = arrays.is_set(t) ? Side::set : is_own ? Side::add_own : Side::add_shared;
   }
+  launch(program, arrays, sinks, nullptr);
+  arrays.release();
+}
+
+void FusedOperator::assemble(const CeedProgram &program, CeedSize offset, CeedVector values) {
+  host::ProgramArrays arrays(program, CEED_MEM_DEVICE);
+  host::Writer entries(values, purpose_ == Purpose::qfunction ? host::Writer::write_only : host::Writer::read_write,
+                       CEED_MEM_DEVICE);
+  std::vector<Side> sinks;
+  for (CeedInt t = 0; t < program.num_sinks; t++) {
+    sinks.push_back(side_of(program.sinks[t].rstr, is_diagonal(purpose_) ? entries.data() : nullptr));
+  }
+  launch(program, arrays, sinks, entries.data() + offset);
+  entries.release();
+  arrays.release();
+}
+
+void FusedOperator::launch(const CeedProgram &program, const host::ProgramArrays &arrays,
+                           const std::vector<Side> &sinks, CeedScalar *entries) {
+  if (program.at_points && program.points_epoch != points_epoch_) group(program);
+  std::vector<Side> sources;
+  for (CeedInt s = 0; s < program.num_sources; s++) {
+    sources.push_back(side_of(program.sources[s].rstr, arrays.sources()[s]));
+  }
   const auto one_thread = device_.lock();
   OperatorFacts facts{.num_elem = program.num_elem,
                       .tables = tables_.as<CeedScalar>(),
                       .context = state_.context(),
-                      .failed = state_.clear_failed()};
+                      .failed = state_.clear_failed(),
+                      .entries = entries};
   if (program.at_points) {
     facts.points = side_of(program.points_rstr, arrays.points());
     facts.groups = groups_.as<CeedInt>();
@@ -127,7 +172,6 @@ void FusedOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVec
                       .has_barriers = text_.shared_bytes + text_.bytes_of_cell > 0};
   if (num_blocks > 0) device_.driver().launch(kernel_, launch, job.data(), job.size());
   host::check_returned(program, state_.returned(), 0, program.num_elem);
-  arrays.release();
 }
 
 }  // namespace hg::gpu

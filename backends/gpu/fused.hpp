@@ -7,28 +7,37 @@
 #include <memory>
 #include <vector>
 
-#include "basis.hpp"
+#include "../host/access.hpp"
 #include "device.hpp"
 #include "operator_text.hpp"
+#include "text/jobs.hpp"
 
 namespace hg::gpu {
 
-/// v += Σ_e R_e^T B^T D(B R_e u) in one launch: nothing but the L-vectors and what is stored at points is in memory.
-/// Nothing is compiled again when points move or values change. One thread at a time.
+/// v += Σ_e R_e^T B^T D(B R_e u), or an assembly of it, in one launch: nothing but the L-vectors, what is stored at
+/// points and what is assembled is in memory. Nothing is compiled again when points move or values change. One thread
+/// at a time.
 class FusedOperator {
  public:
-  /// NULL where the program is not taken; see operator_text.hpp. Throws jit::NoSource where the QFunction came without
-  /// text, jit::NotCompiled or DeviceError where that cannot be compiled.
-  static std::unique_ptr<FusedOperator> make(Device &device, const CeedProgram &program);
+  /// NULL where the program is not taken, see operator_text.hpp, and for diagonals where an element meets an entry of
+  /// the L-vector twice. Throws jit::NoSource where the QFunction came without text, jit::NotCompiled or DeviceError
+  /// where that cannot be compiled.
+  static std::unique_ptr<FusedOperator> make(Device &device, const CeedProgram &program, Purpose purpose);
 
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  /// What it was made for, to values[offset] and beyond: matrices of QFunctions are written, all else is added.
+  void assemble(const CeedProgram &program, CeedSize offset, CeedVector values);
   std::size_t num_bytes() const { return sizeof *this + tables_.num_bytes() + groups_.num_bytes() + elem_.num_bytes(); }
 
  private:
-  FusedOperator(Device &device, const CeedProgram &program, const FunctionText &function, OperatorText text);
+  FusedOperator(Device &device, const CeedProgram &program, const FunctionText &function, OperatorText text,
+                Purpose purpose);
   void group(const CeedProgram &program);
+  void launch(const CeedProgram &program, const host::ProgramArrays &arrays, const std::vector<Side> &sinks,
+              CeedScalar *entries);
 
   Device &device_;
+  Purpose purpose_;
   FunctionState state_;
   OperatorText text_;
   std::unique_ptr<Module> module_;

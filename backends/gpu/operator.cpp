@@ -1,5 +1,7 @@
 /// The tables of operators: in stages, or as one kernel where that is possible.
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "../host/access.hpp"
 #include "../jit/compiler.hpp"
@@ -13,14 +15,13 @@ using host::chk, host::wall;
 
 namespace {
 
-/// What an operator keeps once it was applied.
+/// What an operator keeps once it was used.
 struct Kept {
   std::unique_ptr<StagedOperator> staged;
-  std::unique_ptr<FusedOperator> fused;
-  bool is_fused_tried = false;
+  std::map<Purpose, std::unique_ptr<FusedOperator>> fused;  ///< that were tried; NULL: it is not taken
 };
 
-/// NULL where it was not applied yet, or is the parent's.
+/// NULL where it was not used yet.
 Kept *kept_of(CeedOperator op) {
   Kept *kept = nullptr;
   chk(CeedOperatorGetData(op, &kept));
@@ -35,7 +36,7 @@ Kept &own_kept_of(CeedOperator op) {
 }
 
 int create(CeedOperator op, const CeedProgram *) {
-  return CeedOperatorSetData(op, nullptr);  // memory is for those that are applied
+  return CeedOperatorSetData(op, nullptr);  // memory is for those that are used
 }
 
 int destroy(CeedOperator op) {
@@ -59,22 +60,58 @@ int apply_add_staged(CeedOperator op, const CeedProgram *program, CeedVector in,
   return wall(CeedOperatorReturnCeed(op), [&] { apply_staged(op, *program, in, out, mode); });
 }
 
+/// NULL where it is not taken.
+FusedOperator *fused_of(CeedOperator op, const CeedProgram &program, Purpose purpose) {
+  auto &fused = own_kept_of(op).fused;
+  if (const auto found = fused.find(purpose); found != fused.end()) return found->second.get();
+  std::unique_ptr<FusedOperator> made;
+  try {
+    made = FusedOperator::make(Device::of(CeedOperatorReturnCeed(op)), program, purpose);
+  } catch (const jit::NoSource &) {
+    // It runs on the host, which is told there.
+  }
+  return fused.emplace(purpose, std::move(made)).first->second.get();
+}
+
 int apply_add_fused(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
   return wall(CeedOperatorReturnCeed(op), [&] {
-    Kept &kept = own_kept_of(op);
-    if (!kept.is_fused_tried) {
-      try {
-        kept.fused = FusedOperator::make(Device::of(CeedOperatorReturnCeed(op)), *program);
-      } catch (const jit::NoSource &) {
-        // It runs on the host, which is told there.
-      }
-      kept.is_fused_tried = true;
-    }
-    if (kept.fused != nullptr) {
-      kept.fused->apply_add(*program, in, out, mode);
+    if (FusedOperator *fused = fused_of(op, *program, Purpose::apply)) {
+      fused->apply_add(*program, in, out, mode);
     } else {
       apply_staged(op, *program, in, out, mode);
     }
+  });
+}
+
+/// All elements; some of them, which the core asks for where it contracts itself, are the reference's.
+int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedInt first_elem, CeedInt num_elem,
+                              CeedVector values) {
+  return wall(CeedOperatorReturnCeed(op), [&] {
+    const bool is_whole = first_elem == 0 && num_elem == program->num_elem;
+    FusedOperator *fused = is_whole ? fused_of(op, *program, Purpose::qfunction) : nullptr;
+    if (fused != nullptr) return fused->assemble(*program, 0, values);
+    chk(parents_tables().op.linear_assemble_qfunction(op, program, first_elem, num_elem, values));
+  });
+}
+
+Purpose purpose_of(CeedAssembleKind kind) {
+  switch (kind) {
+    case CEED_ASSEMBLE_MATRIX:
+      return Purpose::matrix;
+    case CEED_ASSEMBLE_DIAGONAL:
+      return Purpose::diagonal;
+    case CEED_ASSEMBLE_POINT_BLOCKS:
+      break;
+  }
+  return Purpose::point_blocks;
+}
+
+int linear_assemble(CeedOperator op, const CeedProgram *program, CeedAssembleKind kind, CeedSize offset,
+                    CeedVector values, bool *is_done) {
+  return wall(CeedOperatorReturnCeed(op), [&] {
+    FusedOperator *fused = fused_of(op, *program, purpose_of(kind));
+    if (fused != nullptr) fused->assemble(*program, offset, values);
+    *is_done = fused != nullptr;
   });
 }
 
@@ -85,17 +122,21 @@ int get_memory(CeedOperator op, CeedSize *bytes) {
     if (kept == nullptr) return;
     *bytes = sizeof *kept;
     if (kept->staged != nullptr) *bytes += static_cast<CeedSize>(kept->staged->num_bytes());
-    if (kept->fused != nullptr) *bytes += static_cast<CeedSize>(kept->fused->num_bytes());
+    for (const auto &[purpose, fused] : kept->fused) {
+      if (fused != nullptr) *bytes += static_cast<CeedSize>(fused->num_bytes());
+    }
   });
 }
 
 }  // namespace
 
-// What is assembled is assembled by the reference, on the host.
+// In stages all is assembled by the reference, on the host.
 void fill_operator_ops(CeedOperatorOps &ops, bool is_fused) {
   ops.create = create;
   ops.destroy = destroy;
   ops.apply_add = is_fused ? apply_add_fused : apply_add_staged;
+  if (is_fused) ops.linear_assemble_qfunction = linear_assemble_qfunction;
+  if (is_fused) ops.linear_assemble = linear_assemble;
   ops.get_memory = get_memory;
 }
 

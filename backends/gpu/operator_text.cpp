@@ -30,24 +30,33 @@ bool is_alone(const CeedProgram &program, CeedInt sink) {
   return true;
 }
 
-std::string begin_text(const CeedProgram &program, const FunctionText &function, const char *name,
-                       const OperatorText &text) {
+std::string begin_text(const CeedProgram &program, const FunctionText &function,
+                       std::initializer_list<const char *> names, const OperatorText &text) {
   const auto at_least_one = [](std::size_t count) { return std::max<std::size_t>(count, 1); };
-  return fmt::format(
-      "{}#line 1 \"operator\"\nnamespace hg::gpu {{\nconstexpr int elems = {}, threads = {};\n}}\n"
-      "#line 1 \"{}\"\n{}#line 1 \"operator\"\nnamespace hg::gpu {{\n"
-      "using Job = OperatorJob<{}, {}, {}>;\nHG_KERNEL_OF(hg_operator, Job, {}, {}) {{\n",
-      function.text, text.num_elem, text.num_threads, name, gpu::text(name), at_least_one(program.num_sources),
-      at_least_one(program.num_sinks), at_least_one(text.numbers.size()), text.num_threads, text.num_blocks);
+  std::string all =
+      function.text +
+      fmt::format("#line 1 \"operator\"\nnamespace hg::gpu {{\nconstexpr int elems = {}, threads = {};\n}}\n",
+                  text.num_elem, text.num_threads);
+  for (const char *name : names) all += fmt::format("#line 1 \"{}\"\n{}", name, gpu::text(name));
+  return all + fmt::format(
+                   "#line 1 \"operator\"\nnamespace hg::gpu {{\nusing Job = OperatorJob<{}, {}, {}>;\n"
+                   "HG_KERNEL_OF(hg_operator, Job, {}, {}) {{\n",
+                   at_least_one(program.num_sources), at_least_one(program.num_sinks),
+                   at_least_one(text.numbers.size()), text.num_threads, text.num_blocks);
+}
+
+std::vector<std::string> output_lines(const CeedProgram &program) {
+  std::vector<std::string> lines;
+  for (CeedInt o = 0; o < program.num_outputs; o++) {
+    lines.push_back(fmt::format("CeedScalar out{}[{}];", o, program.outputs[o].size));
+  }
+  return lines;
 }
 
 std::vector<std::string> call_lines(const CeedProgram &program) {
   std::vector<std::string> lines, in, out;
   for (CeedInt i = 0; i < program.num_inputs; i++) in.push_back(fmt::format("in{}", i));
-  for (CeedInt o = 0; o < program.num_outputs; o++) {
-    out.push_back(fmt::format("out{}", o));
-    lines.push_back(fmt::format("CeedScalar out{}[{}];", o, program.outputs[o].size));
-  }
+  for (CeedInt o = 0; o < program.num_outputs; o++) out.push_back(fmt::format("out{}", o));
   lines.push_back(fmt::format("const CeedScalar *const in[] = {{{}}};",
                               in.empty() ? "nullptr" : fmt::format("{}", fmt::join(in, ", "))));
   lines.push_back(fmt::format("CeedScalar *const out[] = {{{}}};", fmt::join(out, ", ")));

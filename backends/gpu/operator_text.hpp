@@ -4,6 +4,7 @@
 
 #include <ceed/plugin.h>
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,18 @@ struct Block {
   int whole_warps(int threads) const { return (threads + warp_size - 1) / warp_size * warp_size; }
 };
 
+/// What a kernel does with an operator: applies it, or writes what CeedOperatorOps::linear_assemble_qfunction() and the
+/// kinds of CeedAssembleKind say to OperatorFacts::entries (diagonals: to the active sink).
+enum class Purpose { apply, qfunction, matrix, diagonal, point_blocks };
+
 /// An operator at quadrature points. Not taken: restrictions with orientations or in blocks, QFunctions for several
-/// points at a time, and what does not fit into the shared memory of a block.
-OperatorText elements_text(const Block &block, const CeedProgram &program, const FunctionText &function);
+/// points at a time, what does not fit into the shared memory of a block, and assemblies that AssemblyText does not
+/// take.
+OperatorText elements_text(const Block &block, const CeedProgram &program, const FunctionText &function,
+                           Purpose purpose = Purpose::apply);
 /// An operator at points of the elements' own; the same is not taken.
-OperatorText cells_text(const Block &block, const CeedProgram &program, const FunctionText &function);
+OperatorText cells_text(const Block &block, const CeedProgram &program, const FunctionText &function,
+                        Purpose purpose = Purpose::apply);
 
 // What both have.
 
@@ -50,10 +58,12 @@ inline bool is_evaluated(const CeedProgramField &field) {
 }
 /// Whether no other sink has the vector of this one.
 bool is_alone(const CeedProgram &program, CeedInt sink);
-/// The text before the kernel's own lines: the QFunction, constants, the text `name` of text/, and the job's type.
-std::string begin_text(const CeedProgram &program, const FunctionText &function, const char *name,
-                       const OperatorText &text);
-/// Calls the QFunction for one point, from in0, in1, ... to out0, out1, ...
+/// The text before the kernel's own lines: the QFunction, constants, the texts `names` of text/, and the job's type.
+std::string begin_text(const CeedProgram &program, const FunctionText &function,
+                       std::initializer_list<const char *> names, const OperatorText &text);
+/// Where the QFunction puts its outputs: arrays out0, out1, ...
+std::vector<std::string> output_lines(const CeedProgram &program);
+/// Calls it for one point, from in0, in1, ... to out0, out1, ...
 std::vector<std::string> call_lines(const CeedProgram &program);
 /// Where `values` are in `all`, which gets them where it does not have them.
 int keep(std::vector<CeedScalar> &all, const std::vector<CeedScalar> &values);

@@ -98,7 +98,9 @@ class ContextData {
 class ProgramArrays {
  public:
   /// Those that are read for an assembly: passive sources, and the points.
-  explicit ProgramArrays(const CeedProgram &program) { read(program, nullptr); }
+  explicit ProgramArrays(const CeedProgram &program, CeedMemType mem_type = CEED_MEM_HOST) : mem_type_(mem_type) {
+    read(program, nullptr);
+  }
   /// As CeedOperatorOps::apply_add() gets its vectors. Passive outputs that are written, not added to, begin with
   /// zeros, unless `sets` says that the caller sets all their entries where it can, see is_set().
   ProgramArrays(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode, bool sets = false,

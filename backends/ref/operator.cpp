@@ -244,7 +244,6 @@ void fill_operator_ops(CeedOperatorOps &ops) {
          .destroy = nullptr,
          .apply_add = apply_add,
          .linear_assemble_qfunction = linear_assemble_qfunction,
-         .linear_assemble_add_diagonal = nullptr,
          .linear_assemble = nullptr,
          .linear_assemble_elements = nullptr,
          .get_memory = nullptr};

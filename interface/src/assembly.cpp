@@ -36,10 +36,7 @@ CeedSize num_entries(CeedOperator_private &op) {
 void assemble(CeedOperator_private &op, CeedSize offset, CeedVector values) {
   const CeedProgram &program = hg::program_of(op);
   if (program.num_elem == 0) return;
-  if (op.ceed->ops.op.linear_assemble != nullptr) {
-    hg::check(op.ceed->ops.op.linear_assemble(&op, &program, offset, values));
-    return;
-  }
+  if (hg::assemble_on_backend(op, program, CEED_ASSEMBLE_MATRIX, offset, values)) return;
   const auto all = hg::couplings(program);
   // Entries stand coupling by coupling; elements are walked once.
   std::vector<CeedSize> places;

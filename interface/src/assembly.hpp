@@ -157,6 +157,9 @@ struct Coupling {
 /// All couplings, in the order of the entries of the assembled matrix: by source, then by sink.
 std::vector<Coupling> couplings(const CeedProgram &program);
 
+/// Whether the backend did all of it; see CeedOperatorOps::linear_assemble.
+bool assemble_on_backend(CeedOperator_private &op, const CeedProgram &program, CeedAssembleKind kind, CeedSize offset,
+                         CeedVector values);
 /// Whether the backend contracted; see CeedOperatorOps::linear_assemble_elements.
 bool contract_on_backend(CeedOperator_private &op, const Coupling &coupling, CeedAssembleKind kind,
                          const AssembledElements &elements, CeedScalar *entries);

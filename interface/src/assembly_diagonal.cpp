@@ -230,10 +230,8 @@ class Adder {
 void add_entries(CeedOperator_private &op, CeedVector assembled, bool is_block, const BlockLayout &layout) {
   const CeedProgram &program = hg::program_of(op);
   if (program.num_elem == 0) return;
-  if (!is_block && op.ceed->ops.op.linear_assemble_add_diagonal != nullptr) {
-    hg::check(op.ceed->ops.op.linear_assemble_add_diagonal(&op, &program, assembled));
-    return;
-  }
+  const CeedAssembleKind kind = is_block ? CEED_ASSEMBLE_POINT_BLOCKS : CEED_ASSEMBLE_DIAGONAL;
+  if (hg::assemble_on_backend(op, program, kind, 0, assembled)) return;
   const auto all = hg::couplings(program);
   hg::FunctionTables functions(program, all);
   const hg::WriteArray array(assembled);

@@ -133,6 +133,16 @@ void for_each_assembled(CeedOperator_private &op, const CeedProgram &program,
   });
 }
 
+bool assemble_on_backend(CeedOperator_private &op, const CeedProgram &program, CeedAssembleKind kind, CeedSize offset,
+                         CeedVector values) {
+  require_linearisable(op, program);
+  const auto assemble = op.ceed->ops.op.linear_assemble;
+  if (assemble == nullptr || op.reuses_assembly) return false;
+  bool is_done = false;
+  check(assemble(&op, &program, kind, offset, values, &is_done));
+  return is_done;
+}
+
 bool contract_on_backend(CeedOperator_private &op, const Coupling &coupling, CeedAssembleKind kind,
                          const AssembledElements &elements, CeedScalar *entries) {
   const auto contract = op.ceed->ops.op.linear_assemble_elements;

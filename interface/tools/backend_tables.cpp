@@ -59,7 +59,6 @@ constexpr Entry all_entries[] = {
     {"op.destroy", offsetof(CeedBackendOps, op.destroy)},
     {"op.apply_add", offsetof(CeedBackendOps, op.apply_add)},
     {"op.linear_assemble_qfunction", offsetof(CeedBackendOps, op.linear_assemble_qfunction)},
-    {"op.linear_assemble_add_diagonal", offsetof(CeedBackendOps, op.linear_assemble_add_diagonal)},
     {"op.linear_assemble", offsetof(CeedBackendOps, op.linear_assemble)},
     {"op.linear_assemble_elements", offsetof(CeedBackendOps, op.linear_assemble_elements)},
     {"op.get_memory", offsetof(CeedBackendOps, op.get_memory)},

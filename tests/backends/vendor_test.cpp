@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "backends/gpu/texts.hpp"
 #include "backends/gpu/vendor.hpp"
 #include "backends/hip/vendor.hpp"
+#include "bakeoff_operator.hpp"
 #include "support/errors.hpp"
 #include "support/handles.hpp"
 #include "support/program.hpp"
@@ -125,67 +125,38 @@ TEST_P(VendorTest, CompilesWhatTheProgramsUse) {
   }
 }
 
-/// A mass or Poisson operator on two cells, at quadrature points or, where `per_cell` is not 0, at points.
-class BakeoffOperator {
+/// The text of an operator for devices of both vendors: with 64 KB of shared memory, or what NVIDIA's have.
+gpu::OperatorText text_of(CeedOperator op, int warp_size, gpu::Purpose purpose = gpu::Purpose::apply) {
+  const CeedProgram *program = nullptr;
+  ok(CeedOperatorGetProgram(op, &program));
+  const std::size_t shared = warp_size == 64 ? 64 << 10 : 163 << 10;
+  const gpu::Block block{.num_threads = program->at_points ? 192 : 256, .warp_size = warp_size, .shared_bytes = shared};
+  const gpu::FunctionText function(program->qf);
+  return program->at_points ? gpu::cells_text(block, *program, function, purpose)
+                            : gpu::elements_text(block, *program, function, purpose);
+}
+
+/// A cache without anything in it, for a scope.
+class EmptyCache {
  public:
-  BakeoffOperator(Ceed ceed, bool is_poisson, CeedInt num_comp, CeedInt P, CeedInt Q, CeedInt per_cell) {
-    const CeedInt nodes = P * P * P, points = per_cell > 0 ? per_cell : Q * Q * Q, stored = is_poisson ? 6 : 1;
-    std::vector<CeedInt> places(num_elem * nodes), ids(num_elem + 1 + num_elem * points);
-    for (std::size_t i = 0; i < places.size(); i++) places[i] = static_cast<CeedInt>(i) * num_comp;
-    for (CeedInt e = 0; e <= num_elem; e++) ids[e] = num_elem + 1 + e * points;
-    std::iota(ids.begin() + num_elem + 1, ids.end(), 0);
-    ok(CeedElemRestrictionCreate(ceed, num_elem, nodes, num_comp, 1, num_elem * nodes * num_comp, CEED_MEM_HOST,
-                                 CEED_COPY_VALUES, places.data(), nodes_.out()));
-    ok(CeedBasisCreateTensorH1Lagrange(ceed, 3, num_comp, P, Q, Q == P ? CEED_GAUSS_LOBATTO : CEED_GAUSS,
-                                       basis_.out()));
-    const auto at_points = [&](CeedInt size, test::Restriction &restriction) {
-      ok(CeedElemRestrictionCreateAtPoints(ceed, num_elem, num_elem * points, size, num_elem * points * size,
-                                           CEED_MEM_HOST, CEED_COPY_VALUES, ids.data(), restriction.out()));
-    };
-    if (per_cell > 0) {
-      at_points(stored, stored_);
-      at_points(3, coordinates_);
-    } else {
-      ok(CeedElemRestrictionCreateStrided(ceed, num_elem, points, stored, num_elem * points * stored,
-                                          CEED_STRIDES_BACKEND, stored_.out()));
-    }
-    ok(CeedVectorCreate(ceed, num_elem * points * stored, data_.out()));
-    ok(CeedVectorCreate(ceed, num_elem * points * 3, x_.out()));
-    const std::string name = std::string(is_poisson ? "BPPoissonApply" : "BPMassApply") + (num_comp > 1 ? "3" : "");
-    const std::string place = std::string(HG_QFUNCTIONS) + (is_poisson ? "/bps/poisson.h:" : "/bps/mass.h:") + name;
-    const CeedQFunctionUser never = [](void *, CeedInt, const CeedScalar *const *, CeedScalar *const *) { return 1; };
-    const CeedEvalMode mode = is_poisson ? CEED_EVAL_GRAD : CEED_EVAL_INTERP;
-    const CeedInt size = num_comp * (is_poisson ? 3 : 1);
-    ok(CeedQFunctionCreateInterior(ceed, 1, never, place.c_str(), qf_.out()));
-    ok(CeedQFunctionAddInput(qf_, "u", size, mode));
-    ok(CeedQFunctionAddInput(qf_, "data", stored, CEED_EVAL_NONE));
-    ok(CeedQFunctionAddOutput(qf_, "v", size, mode));
-    ok((per_cell > 0 ? CeedOperatorCreateAtPoints : CeedOperatorCreate)(ceed, qf_, CEED_QFUNCTION_NONE,
-                                                                        CEED_QFUNCTION_NONE, op_.out()));
-    ok(CeedOperatorSetField(op_, "u", nodes_, basis_, CEED_VECTOR_ACTIVE));
-    ok(CeedOperatorSetField(op_, "data", stored_, CEED_BASIS_NONE, data_));
-    ok(CeedOperatorSetField(op_, "v", nodes_, basis_, CEED_VECTOR_ACTIVE));
-    if (per_cell > 0) ok(CeedOperatorAtPointsSetPoints(op_, coordinates_, x_));
+  EmptyCache() {
+    if (const char *usual = std::getenv(name)) usual_ = usual;
+    ::setenv(name, folder_.path().c_str(), 1);
   }
-  /// For devices of both vendors: 64 KB of shared memory, or what NVIDIA's have.
-  gpu::OperatorText text(int warp_size) const {
-    const CeedProgram *program = nullptr;
-    ok(CeedOperatorGetProgram(op_, &program));
-    const std::size_t shared = warp_size == 64 ? 64 << 10 : 163 << 10;
-    const gpu::Block block{
-        .num_threads = program->at_points ? 192 : 256, .warp_size = warp_size, .shared_bytes = shared};
-    const gpu::FunctionText function(program->qf);
-    return program->at_points ? gpu::cells_text(block, *program, function)
-                              : gpu::elements_text(block, *program, function);
+  EmptyCache(const EmptyCache &) = delete;
+  EmptyCache &operator=(const EmptyCache &) = delete;
+  ~EmptyCache() {
+    if (usual_) {
+      ::setenv(name, usual_->c_str(), 1);
+    } else {
+      ::unsetenv(name);
+    }
   }
 
  private:
-  static constexpr CeedInt num_elem = 2;
-  test::Restriction nodes_, stored_, coordinates_;
-  test::Basis basis_;
-  test::Vector data_, x_;
-  test::QFunction qf_;
-  test::Operator op_;
+  static constexpr const char *name = "CEED_CACHE_DIR";
+  const test::TemporaryFolder folder_;
+  std::optional<std::string> usual_;
 };
 
 /// The first number right before `words` in what a compiler printed. (Not by <regex>: GCC 12 warns of it when it
@@ -201,10 +172,7 @@ std::optional<int> number_before(const std::string &words, const std::string &lo
 /// Whole operators, with what NVIDIA's compiler says of registers and spills: the table of docs/performance/gpu.md.
 /// What is spilled are a few numbers of kernels that leave room for more threads (1024 at quadrature points).
 TEST_P(VendorTest, CompilesTheBakeoffProblems) {
-  const test::TemporaryFolder cache;  // what is found there says nothing
-  const char *usual = std::getenv("CEED_CACHE_DIR");
-  const std::string before = usual != nullptr ? usual : "";
-  ::setenv("CEED_CACHE_DIR", cache.path().c_str(), 1);
+  const EmptyCache cache;  // what is found in one says nothing
   const test::CeedHandle ceed(test::open("/cpu/self/ref"));
   const bool is_cuda = &target().vendor == &cuda::vendor;
   for (const CeedInt per_cell : {0, 27}) {
@@ -213,8 +181,8 @@ TEST_P(VendorTest, CompilesTheBakeoffProblems) {
       if (per_cell > 0 && number > 4) continue;
       for (CeedInt p = 1; p <= (per_cell > 0 ? 4 : 8); p++) {
         const CeedInt num_comp = number % 2 == 0 ? 3 : 1, Q = number > 4 ? p + 1 : p + 2;
-        const BakeoffOperator op(ceed, number > 2, num_comp, p + 1, Q, per_cell);
-        const gpu::OperatorText text = op.text(is_cuda ? 32 : 64);
+        const test::BakeoffOperator op(ceed, number > 2, num_comp, p + 1, Q, per_cell);
+        const gpu::OperatorText text = text_of(op, is_cuda ? 32 : 64);
         const std::string name = std::string(problem) + (per_cell > 0 ? " at points" : "") + " p=" + std::to_string(p);
         if (text.text.empty()) {
           std::printf("%s %s: in stages\n", target().name, name.c_str());
@@ -235,10 +203,40 @@ TEST_P(VendorTest, CompilesTheBakeoffProblems) {
       }
     }
   }
-  if (usual != nullptr) {
-    ::setenv("CEED_CACHE_DIR", before.c_str(), 1);
-  } else {
-    ::unsetenv("CEED_CACHE_DIR");
+}
+
+/// Assemblies of mass and of 3-vector Poisson problems.
+TEST_P(VendorTest, CompilesAssemblies) {
+  const EmptyCache cache;
+  const test::CeedHandle ceed(test::open("/cpu/self/ref"));
+  const bool is_cuda = &target().vendor == &cuda::vendor;
+  for (const CeedInt per_cell : {0, 27}) {
+    for (const bool is_poisson : {false, true}) {
+      for (const CeedInt p : {1, 2, 4}) {
+        const test::BakeoffOperator op(ceed, is_poisson, is_poisson ? 3 : 1, p + 1, p + 2, per_cell);
+        for (const auto &[purpose, called] :
+             {std::pair(gpu::Purpose::qfunction, "QFunction"), std::pair(gpu::Purpose::matrix, "matrix"),
+              std::pair(gpu::Purpose::diagonal, "diagonal"), std::pair(gpu::Purpose::point_blocks, "point blocks")}) {
+          const gpu::OperatorText text = text_of(op, is_cuda ? 32 : 64, purpose);
+          const std::string name = std::string(called) + (is_poisson ? " of BP4" : " of BP1") +
+                                   (per_cell > 0 ? " at points" : "") + " p=" + std::to_string(p);
+          if (text.text.empty()) {
+            std::printf("%s %s: on the host\n", target().name, name.c_str());
+            EXPECT_GT(p, is_cuda ? 4 : 2) << name << " does not fit into shared memory";
+            continue;
+          }
+          std::string log;
+          compiles(name, text.text, &log);
+          const std::optional<int> registers = number_before(" registers", log);
+          const std::optional<int> spilled = number_before(" bytes spill stores", log);
+          if (!is_cuda) continue;
+          ASSERT_TRUE(registers && spilled) << log;
+          std::printf("%s %s: %d threads, %zu KB, %d registers, %d bytes spilled\n", target().name, name.c_str(),
+                      text.num_threads, text.shared_bytes >> 10, *registers, *spilled);
+          EXPECT_EQ(*spilled, 0) << name;
+        }
+      }
+    }
   }
 }
 

@@ -1,4 +1,5 @@
-// Operators at points of the elements' own, as blocks of threads work on groups of cells. Before this come
+// Operators at points of the elements' own, as blocks of threads work on groups of cells. Before this come sides.hpp
+// and
 //   cells, threads    most cells, and threads, of a block
 // In shared memory are the coefficients of the group's cells; then for each point, a thread for each of them, the basis
 // functions of its coordinates and what its QFunction gives; then each thread sums what the points of a cell give to a
@@ -64,10 +65,7 @@ HG_DEVICE void read_cells(const Side &side, CeedSize first, int count, SharedArr
               n = rest / Cell::line * (Cell::count / Cell::lines) + in_line / Cell::components;
     CeedScalar value = 0;  // what fills up a line
     if (in_line < Cell::count / Cell::lines * Cell::components) {
-      const CeedSize place = side.offsets != nullptr
-                                 ? static_cast<CeedSize>(side.offsets[(first + cell) * Cell::count + n])
-                                 : n * side.node_stride + (first + cell) * side.elem_stride;
-      value = side.values[place + in_line % Cell::components * side.comp_stride];
+      value = side.values[place_of(side, first + cell, Cell::count, n, in_line % Cell::components)];
     }
     nodes[cell * of_cell + rest] = value;
   }
@@ -155,40 +153,57 @@ HG_DEVICE void read_flux(SharedArray array, int lane, CeedScalar *values) {
   }
 }
 
-/// Adds to the nodes of cells what points give: B^T values + G^T derivatives. Points [begin, begin + threads) are in
-/// shared memory; `starts`: of the cells from `first` on. A line of nodes along the last direction for each thread; for
-/// each point 2P + 3 products of each component and as many numbers from shared memory, most of them for all threads of
-/// a cell.
+/// The lanes of a cell: those of its points, starts[cell] to starts[cell + 1], that are among the `threads` points from
+/// `first` on.
+struct PointLanes {
+  const CeedInt *starts;
+  CeedInt first;
+
+  HG_DEVICE int begin(int cell) const { return starts[cell] > first ? starts[cell] - first : 0; }
+  HG_DEVICE int end(int cell) const {
+    const CeedInt end = starts[cell + 1] - first;
+    return end < threads ? end : threads;
+  }
+};
+/// What Functions::write() has left for the points: function n of direction d, and its derivative.
+template <int dim, int P>
+struct PointFunctions {
+  SharedArray functions;
+
+  HG_DEVICE Pair operator()(int lane, int d, int n) const {
+    return read_pair(functions, lane * odd_pairs(2 * dim * P) + (d * P + n) * 2);
+  }
+};
+
+/// Adds to the nodes of the cells from `first` on what points give: B^T values + G^T derivatives. A line of nodes along
+/// the last direction for each thread; for each point 2P + 3 products of each component and as many numbers from shared
+/// memory, most of them for all threads of a cell.
 template <int dim, int P, int num_comp, bool with_values, bool with_derivatives>
-HG_DEVICE void integrate_cells(const Side &side, const CeedInt *starts, CeedSize first, int count, CeedInt begin,
-                               SharedArray functions, SharedArray values, SharedArray derivatives) {
+HG_DEVICE void integrate_cells(const Side &side, CeedSize first, int count, const PointLanes &lanes,
+                               const PointFunctions<dim, P> &functions, SharedArray values, SharedArray derivatives) {
   using Nodes = Cell<dim, P, num_comp>;
   constexpr int nc = num_comp, last = dim - 1;
   HG_ROLLED for (int i = thread(); i < count * Nodes::lines; i += threads) {
     const int cell = i / Nodes::lines, line = i % Nodes::lines, x = line % P, y = line / P;
-    const CeedInt from = starts[first + cell] - begin, to = starts[first + cell + 1] - begin;
-    const int first_lane = from > 0 ? from : 0, end = to < threads ? to : threads;
-    if (first_lane >= end) continue;
+    const int begin = lanes.begin(cell), end = lanes.end(cell);
+    if (begin >= end) continue;
     CeedScalar sums[P][nc];
     HG_UNROLL for (int n = 0; n < P; n++) {
       HG_UNROLL for (int c = 0; c < nc; c++) sums[n][c] = 0;
     }
-    HG_ROLLED for (int lane = first_lane; lane < end; lane++) {
-      const auto function = [&](int d, int n) {
-        return read_pair(functions, lane * odd_pairs(2 * dim * P) + (d * P + n) * 2);
-      };
+    HG_ROLLED for (int lane = begin; lane < end; lane++) {
       CeedScalar value[nc], slope[dim * nc];
       if (with_values) read_flux<nc>(values, lane, value);
       if (with_derivatives) read_flux<dim * nc>(derivatives, lane, slope);
       // Products over the directions but the last one, of values and of each derivative.
       CeedScalar plain = 1, along_x = 1, along_y = 1;
       if (dim > 1) {
-        const Pair f = function(0, x);
+        const Pair f = functions(lane, 0, x);
         plain = f.first;
         along_x = f.second;
       }
       if (dim > 2) {
-        const Pair f = function(1, y);
+        const Pair f = functions(lane, 1, y);
         along_y = plain * f.second;
         plain *= f.first;
         along_x *= f.first;
@@ -201,7 +216,7 @@ HG_DEVICE void integrate_cells(const Side &side, const CeedInt *starts, CeedSize
         times_slope[c] = with_derivatives ? plain * slope[last * nc + c] : 0;
       }
       HG_UNROLL for (int n = 0; n < P; n++) {
-        const Pair f = function(last, n);
+        const Pair f = functions(lane, last, n);
         HG_UNROLL for (int c = 0; c < nc; c++) {
           if (with_values || dim > 1) sums[n][c] += f.first * times_value[c];
           if (with_derivatives) sums[n][c] += f.second * times_slope[c];
@@ -209,9 +224,7 @@ HG_DEVICE void integrate_cells(const Side &side, const CeedInt *starts, CeedSize
       }
     }
     HG_UNROLL for (int n = 0; n < P; n++) {
-      const CeedSize node = n * Nodes::lines + line, elem = first + cell;
-      const CeedSize place = side.offsets != nullptr ? static_cast<CeedSize>(side.offsets[elem * Nodes::count + node])
-                                                     : node * side.node_stride + elem * side.elem_stride;
+      const CeedSize place = place_of(side, first + cell, Nodes::count, n * Nodes::lines + line, 0);
       HG_UNROLL for (int c = 0; c < nc; c++) {
         atomic_add(&side.values[place + c * side.comp_stride], sums[n][c]);
       }

@@ -1,4 +1,4 @@
-// Operators at quadrature points, as blocks of threads work on `elems` elements each. Before this come
+// Operators at quadrature points, as blocks of threads work on `elems` elements each. Before this come sides.hpp and
 //   elems, threads    elements and threads of a block
 // All arrays are in shared memory, element by element, and are filled by one phase and read by a later one; between two
 // phases there is a barrier. In a phase each thread takes lines, points or nodes of any element.
@@ -60,15 +60,8 @@ HG_DEVICE void multiply(const CeedScalar *B, int count, SharedArray in, SharedAr
   }
 }
 
-/// Component `comp` of node n of an element in the L-vector.
-HG_DEVICE CeedSize place_of(const Side &side, CeedSize elem, int elem_size, int n, int comp) {
-  const CeedSize node = side.offsets != nullptr ? static_cast<CeedSize>(side.offsets[elem * elem_size + n])
-                                                : n * side.node_stride + elem * side.elem_stride;
-  return node + comp * side.comp_stride;
-}
-
-/// Calls visit(entry of the L-vector, place in shared memory) for the nodes of the elements from `first` on. `comp_first`:
-/// threads that follow each other take components of one node.
+/// Calls visit(entry of the L-vector, place in shared memory) for the nodes of the elements from `first` on.
+/// `comp_first`: threads that follow each other take components of one node.
 template <bool comp_first, typename Nodes, typename Visit>
 HG_DEVICE void for_nodes(const Side &side, CeedSize first, int count, Visit &&visit) {
   constexpr int nc = Nodes::components, of_element = Nodes::count * nc;

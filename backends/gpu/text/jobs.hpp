@@ -103,6 +103,7 @@ struct OperatorFacts {
   Side points{};                    ///< at points: coordinates
   const CeedInt *groups = nullptr;  ///< at points: block b takes the cells [groups[b], groups[b+1])
   const CeedInt *elem = nullptr;    ///< at points: the cell of each one
+  CeedScalar *entries = nullptr;    ///< assembly: what is written
 };
 template <int num_sources, int num_sinks, int num_numbers>
 struct OperatorJob {

@@ -14,7 +14,7 @@
 
 /// Version of this file: it grows with every change of a struct or of what an entry means. A plugin of another version
 /// is refused.
-#define CEED_PLUGIN_API_VERSION 2u
+#define CEED_PLUGIN_API_VERSION 3u
 
 #ifdef __cplusplus
 extern "C" {
@@ -203,10 +203,12 @@ typedef struct {
   /// fastest; at points one element after another, component fastest. `values` may be longer than that.
   int (*linear_assemble_qfunction)(CeedOperator op, const CeedProgram *program, CeedInt first_elem, CeedInt num_elem,
                                    CeedVector values);
-  /// diagonal += ...; optional: the core assembles the QFunction and contracts.
-  int (*linear_assemble_add_diagonal)(CeedOperator op, const CeedProgram *program, CeedVector diagonal);
-  /// Entries in the order of CeedOperatorLinearAssembleSymbolic() from values[offset] on; optional as above.
-  int (*linear_assemble)(CeedOperator op, const CeedProgram *program, CeedSize offset, CeedVector values);
+  /// All of an assembly, where the backend works. CEED_ASSEMBLE_MATRIX: the entries go to values[offset] and beyond, 0
+  /// before, in the order of CeedOperatorLinearAssembleSymbolic(); else they are added to the diagonal or the point-block
+  /// diagonal `values`. Optional, and *is_done = false says that this one is not taken: the core assembles the QFunction
+  /// and contracts, as it does where an assembled QFunction is kept.
+  int (*linear_assemble)(CeedOperator op, const CeedProgram *program, CeedAssembleKind kind, CeedSize offset,
+                         CeedVector values, bool *is_done);
   /// Contracts the QFunction's matrices `qfunction` of some elements, as linear_assemble_qfunction() gives them, with
   /// the bases: writes the wanted entries of one element after another. Optional, and *is_done = false says that this
   /// coupling is not taken: the core does it.
