@@ -4,6 +4,7 @@
 /// Sample runs:
 ///   honeyguide -options_file ratel-like/examples/sinker-fem.yml
 ///   honeyguide -options_file ratel-like/examples/sinker-mpm.yml -ts_max_steps 2
+#include <ceed/backend.h>
 #include <petscsys.h>
 
 #include <cerrno>
@@ -53,6 +54,20 @@ void say_error_norm(MPI_Comm comm, const char *where, double error) {
   hg::petsc_check(PetscPrintf(comm, "L2 error against the manufactured solution%s: %.6e\n", where, error));
 }
 
+// What has gone between host and device, of all ranks; nothing where the backend works on the host.
+void say_transfers(MPI_Comm comm, Ceed ceed) {
+  CeedMemType works_in;
+  CeedTransfers mine{};
+  hg::ceed_check(CeedGetPreferredMemType(ceed, &works_in));
+  if (works_in == CEED_MEM_HOST) return;
+  hg::ceed_check(CeedGetTransfers(ceed, &mine));
+  double counts[] = {static_cast<double>(mine.num_to_device), static_cast<double>(mine.bytes_to_device),
+                     static_cast<double>(mine.num_to_host), static_cast<double>(mine.bytes_to_host)};
+  MPI_Allreduce(MPI_IN_PLACE, counts, 4, MPI_DOUBLE, MPI_SUM, comm);
+  hg::petsc_check(PetscPrintf(comm, "Copies: %.0f to the device (%.1f MB), %.0f to the host (%.1f MB)\n", counts[0],
+                              counts[1] / 1e6, counts[2], counts[3] / 1e6));
+}
+
 void run(MPI_Comm comm) {
   using namespace hg;
   auto stage = std::make_unique<StageScope>(Stage::setup);
@@ -75,6 +90,7 @@ void run(MPI_Comm comm) {
       say_error_norm(comm, ", at the points", mpm.mms_error_at_points());
     }
   }
+  say_transfers(comm, setup.ceed);
   warn_of_unused_options();
 }
 

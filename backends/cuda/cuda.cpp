@@ -8,7 +8,8 @@ namespace hg::cuda {
 
 namespace {
 
-constexpr CeedBackend backends[] = {gpu::fused_of<vendor>("/gpu/cuda/gen"), gpu::stages_of<vendor>("/gpu/cuda/ref")};
+constexpr CeedBackend backends[] = {gpu::backend_of<vendor, true>("/gpu/cuda/gen"),
+                                    gpu::backend_of<vendor, false>("/gpu/cuda/ref")};
 
 constexpr CeedPlugin plugin{.size = sizeof(CeedPlugin),
                             .api_version = CEED_PLUGIN_API_VERSION,

@@ -1,5 +1,8 @@
 #include "vendor.hpp"
 
+#include <map>
+#include <mutex>
+
 namespace hg::cuda {
 
 namespace {
@@ -26,16 +29,16 @@ std::string error(const gpu::VendorLibrary &driver, int code) {
   return text_of(code, &text) == 0 && text != nullptr ? text : "error " + std::to_string(code);
 }
 
-/// The device's own context, which the CUDA runtime uses, too.
+/// The devices' own contexts, which the CUDA runtime uses, too.
 int make_current(const gpu::VendorLibrary &driver, int device) {
   const auto retain = reinterpret_cast<int (*)(void **, int)>(driver.symbol("cuDevicePrimaryCtxRetain"));
   const auto set_current = reinterpret_cast<int (*)(void *)>(driver.symbol("cuCtxSetCurrent"));
-  static void *const context = [&] {
-    void *of_device = nullptr;
-    return retain(&of_device, device) == 0 ? of_device : nullptr;
-  }();
-  constexpr int invalid_context = 201;
-  return context == nullptr ? invalid_context : set_current(context);
+  static std::mutex mutex;
+  static std::map<int, void *> contexts;
+  const std::scoped_lock one_thread(mutex);
+  void *&context = contexts[device];
+  const int code = context == nullptr ? retain(&context, device) : 0;
+  return code != 0 ? code : set_current(context);
 }
 
 int allow_shared(const gpu::VendorLibrary &driver, void *function, std::size_t bytes) {

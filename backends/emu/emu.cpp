@@ -10,12 +10,9 @@ namespace hg::emu {
 
 namespace {
 
-int init_stages(Ceed ceed, const char *options, CeedBackendOps *ops) {
-  return host::wall(ceed, [&] { host::chk(gpu::init_stages(ceed, std::make_shared<Emulator>(parse(options)), ops)); });
-}
-int init_fused(Ceed ceed, const char *options, CeedBackendOps *ops) {
-  return host::wall(ceed,
-                    [&] { host::chk(gpu::init_fused(ceed, std::make_shared<Emulator>(parse(options)), "", ops)); });
+template <bool is_fused>
+int init(Ceed ceed, const char *options, CeedBackendOps *ops) {
+  return host::wall(ceed, [&] { gpu::init(ceed, std::make_shared<Emulator>(parse(options)), is_fused, {}, ops); });
 }
 
 int score(const char **reason) {
@@ -30,8 +27,8 @@ int score(const char **reason) {
   }
 }
 
-constexpr CeedBackend backends[] = {gpu::on_device("/gpu/emu/ref", CEED_MAX_BACKEND_PRIORITY, score, init_stages),
-                                    gpu::on_device("/gpu/emu/gen", CEED_MAX_BACKEND_PRIORITY, score, init_fused)};
+constexpr CeedBackend backends[] = {gpu::on_device("/gpu/emu/ref", CEED_MAX_BACKEND_PRIORITY, score, init<false>),
+                                    gpu::on_device("/gpu/emu/gen", CEED_MAX_BACKEND_PRIORITY, score, init<true>)};
 
 constexpr CeedPlugin plugin{.size = sizeof(CeedPlugin),
                             .api_version = CEED_PLUGIN_API_VERSION,

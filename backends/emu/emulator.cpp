@@ -120,14 +120,6 @@ void Emulator::free(void *memory) noexcept {
   std::free(memory);
 }
 
-void Emulator::copy_to_device(void *to, const void *from, std::size_t bytes) {
-  copy(to, from, bytes);
-}
-
-void Emulator::copy_to_host(void *to, const void *from, std::size_t bytes) {
-  copy(to, from, bytes);
-}
-
 void Emulator::copy(void *to, const void *from, std::size_t bytes) {
   if (bytes > 0) std::memmove(to, from, bytes);
 }

@@ -28,14 +28,14 @@ class Emulator : public gpu::Driver {
   const gpu::Properties &properties() const override { return properties_; }
   void *allocate(std::size_t bytes) override;
   void free(void *memory) noexcept override;
-  void copy_to_device(void *to, const void *from, std::size_t bytes) override;
-  void copy_to_host(void *to, const void *from, std::size_t bytes) override;
   void copy(void *to, const void *from, std::size_t bytes) override;
   void set_stream(void *) override {}
   std::unique_ptr<gpu::Module> compile(const std::string &name, const std::string &text) override;
   void launch(gpu::Kernel kernel, const gpu::Launch &launch, const void *job, std::size_t job_bytes) override;
 
  private:
+  void to_device(void *to, const void *from, std::size_t bytes) override { copy(to, from, bytes); }
+  void to_host(void *to, const void *from, std::size_t bytes) override { copy(to, from, bytes); }
   std::vector<int> order_of(int count);
 
   Options options_;

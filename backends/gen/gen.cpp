@@ -39,6 +39,12 @@ int destroy(CeedOperator op) {
   });
 }
 
+int prepare(CeedOperator op, const CeedProgram *program) {
+  return host::wall(CeedOperatorReturnCeed(op), [&] {
+    if (Operator *own = operator_of(op); own != nullptr) own->prepare(*program);
+  });
+}
+
 int apply_add(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
   return host::wall(CeedOperatorReturnCeed(op), [&] {
     Operator *own = operator_of(op);
@@ -71,6 +77,7 @@ int init(Ceed, const char *, CeedBackendOps *ops) {
   if (parents_tables.size == 0) parents_tables = *ops;
   ops->op.create = create;
   ops->op.destroy = destroy;
+  ops->op.prepare = prepare;
   ops->op.apply_add = apply_add;
   ops->op.get_memory = get_memory;
   ops->op.linear_assemble_qfunction = linear_assemble_qfunction;

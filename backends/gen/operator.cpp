@@ -81,6 +81,10 @@ void Operator::prepare_assembly(const CeedProgram &program) {
   if (!has_function_) compile(program, false);
 }
 
+void Operator::prepare(const CeedProgram &program) {
+  if (!has_loop_) compile(program, true);
+}
+
 void Operator::compile(const CeedProgram &program, bool with_loop) {
   const bool had_function = std::exchange(has_function_, true);
   has_loop_ = has_loop_ || with_loop;
@@ -141,7 +145,7 @@ Printed Operator::print(const CeedProgram &program, const std::string &function)
 }
 
 void Operator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
-  if (!has_loop_) compile(program, true);
+  prepare(program);
   if (apply_ == nullptr) {
     follow(program);
     return host::Operator::apply_add(program, in, out, mode);

@@ -28,6 +28,8 @@ class Operator : public host::Operator {
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// To be called before an assembly: compiles the QFunction alone, where the loop has not been compiled.
   void prepare_assembly(const CeedProgram &program);
+  /// Compiles, where that was not done, what apply_add() runs.
+  void prepare(const CeedProgram &program);
   /// As CeedOperatorOps::get_memory(): both operators. Compiled code is the process's.
   std::size_t num_bytes() const;
 

@@ -2,6 +2,9 @@
 /// What a vendor's library has to do for us. CUDA, HIP and the emulator differ by a driver, and by nothing else.
 #pragma once
 
+#include <ceed/backend.h>
+
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -54,9 +57,25 @@ class Driver {
   /// Memory on the device, aligned to 256 bytes, without values; never NULL.
   virtual void *allocate(std::size_t bytes) = 0;
   virtual void free(void *memory) noexcept = 0;
-  virtual void copy_to_device(void *to, const void *from, std::size_t bytes) = 0;
+  void copy_to_device(void *to, const void *from, std::size_t bytes) {
+    if (bytes == 0) return;
+    to_device(to, from, bytes);
+    num_to_device_++;
+    bytes_to_device_ += static_cast<CeedSize>(bytes);
+  }
   /// The values are there when it returns.
-  virtual void copy_to_host(void *to, const void *from, std::size_t bytes) = 0;
+  void copy_to_host(void *to, const void *from, std::size_t bytes) {
+    if (bytes == 0) return;
+    to_host(to, from, bytes);
+    num_to_host_++;
+    bytes_to_host_ += static_cast<CeedSize>(bytes);
+  }
+  CeedTransfers transfers() const {
+    return {.num_to_device = num_to_device_,
+            .bytes_to_device = bytes_to_device_,
+            .num_to_host = num_to_host_,
+            .bytes_to_host = bytes_to_host_};
+  }
   virtual void copy(void *to, const void *from, std::size_t bytes) = 0;
 
   /// The stream (CUstream, hipStream_t) that work is given to from now on.
@@ -66,6 +85,12 @@ class Driver {
   virtual std::unique_ptr<Module> compile(const std::string &name, const std::string &text) = 0;
   /// Calls a kernel with its one argument, a struct of text/jobs.hpp, which is copied.
   virtual void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) = 0;
+
+ private:
+  virtual void to_device(void *to, const void *from, std::size_t bytes) = 0;
+  virtual void to_host(void *to, const void *from, std::size_t bytes) = 0;
+
+  std::atomic<CeedSize> num_to_device_ = 0, bytes_to_device_ = 0, num_to_host_ = 0, bytes_to_host_ = 0;
 };
 
 }  // namespace hg::gpu

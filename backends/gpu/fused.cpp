@@ -117,6 +117,16 @@ void FusedOperator::group(const CeedProgram &program) {
   points_epoch_ = program.points_epoch;
 }
 
+void FusedOperator::prepare(const CeedProgram &program) {
+  if (program.at_points && program.points_epoch != points_epoch_) group(program);
+  const auto list = [](CeedElemRestriction rstr) {
+    if (map_of(rstr).offsets != nullptr) offsets_of(rstr);
+  };
+  for (CeedInt s = 0; s < program.num_sources; s++) list(program.sources[s].rstr);
+  for (CeedInt t = 0; t < program.num_sinks; t++) list(program.sinks[t].rstr);
+  if (program.at_points) list(program.points_rstr);
+}
+
 void FusedOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
   host::ProgramArrays arrays(program, in, out, mode, program.at_points, CEED_MEM_DEVICE);
   std::vector<Side> sinks;
@@ -144,7 +154,7 @@ void FusedOperator::assemble(const CeedProgram &program, CeedSize offset, CeedVe
 
 void FusedOperator::launch(const CeedProgram &program, const host::ProgramArrays &arrays,
                            const std::vector<Side> &sinks, CeedScalar *entries) {
-  if (program.at_points && program.points_epoch != points_epoch_) group(program);
+  prepare(program);
   std::vector<Side> sources;
   for (CeedInt s = 0; s < program.num_sources; s++) {
     sources.push_back(side_of(program.sources[s].rstr, arrays.sources()[s]));

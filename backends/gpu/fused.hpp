@@ -24,6 +24,8 @@ class FusedOperator {
   /// where that cannot be compiled.
   static std::unique_ptr<FusedOperator> make(Device &device, const CeedProgram &program, Purpose purpose);
 
+  /// Brings to the device what it works with, where that is not there.
+  void prepare(const CeedProgram &program);
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// What it was made for, to values[offset] and beyond: matrices of QFunctions are written, all else is added.
   void assemble(const CeedProgram &program, CeedSize offset, CeedVector values);

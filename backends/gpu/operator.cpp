@@ -46,14 +46,26 @@ int destroy(CeedOperator op) {
   });
 }
 
-void apply_staged(CeedOperator op, const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
-  PointFunction *function = function_of(program.qf);
-  if (function == nullptr) return chk(parents_tables().op.apply_add(op, &program, in, out, mode));
+StagedOperator &staged_of(CeedOperator op, const CeedProgram &program) {
   auto &staged = own_kept_of(op).staged;
   if (staged == nullptr) {
     staged = std::make_unique<StagedOperator>(Device::of(CeedOperatorReturnCeed(op)), program);
   }
-  staged->apply_add(program, *function, in, out, mode);
+  return *staged;
+}
+
+void prepare_staged(CeedOperator op, const CeedProgram &program) {
+  if (function_of(program.qf) != nullptr) staged_of(op, program);
+}
+
+void apply_staged(CeedOperator op, const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+  PointFunction *function = function_of(program.qf);
+  if (function == nullptr) return chk(parents_tables().op.apply_add(op, &program, in, out, mode));
+  staged_of(op, program).apply_add(program, *function, in, out, mode);
+}
+
+int prepare_in_stages(CeedOperator op, const CeedProgram *program) {
+  return wall(CeedOperatorReturnCeed(op), [&] { prepare_staged(op, *program); });
 }
 
 int apply_add_staged(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
@@ -71,6 +83,16 @@ FusedOperator *fused_of(CeedOperator op, const CeedProgram &program, Purpose pur
     // It runs on the host, which is told there.
   }
   return fused.emplace(purpose, std::move(made)).first->second.get();
+}
+
+int prepare_fused(CeedOperator op, const CeedProgram *program) {
+  return wall(CeedOperatorReturnCeed(op), [&] {
+    if (FusedOperator *fused = fused_of(op, *program, Purpose::apply)) {
+      fused->prepare(*program);
+    } else {
+      prepare_staged(op, *program);
+    }
+  });
 }
 
 int apply_add_fused(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
@@ -134,6 +156,7 @@ int get_memory(CeedOperator op, CeedSize *bytes) {
 void fill_operator_ops(CeedOperatorOps &ops, bool is_fused) {
   ops.create = create;
   ops.destroy = destroy;
+  ops.prepare = is_fused ? prepare_fused : prepare_in_stages;
   ops.apply_add = is_fused ? apply_add_fused : apply_add_staged;
   if (is_fused) ops.linear_assemble_qfunction = linear_assemble_qfunction;
   if (is_fused) ops.linear_assemble = linear_assemble;

@@ -1,7 +1,8 @@
 #include "tables.hpp"
 
-#include <algorithm>
 #include <charconv>
+#include <limits>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -27,35 +28,20 @@ int set_stream(Ceed ceed, void *handle) {
   return wall(ceed, [&] { Device::of(ceed).driver().set_stream(handle); });
 }
 
-void init(Ceed ceed, std::shared_ptr<Driver> driver, bool is_fused, int block_threads, CeedBackendOps *ops) {
-  if (parents.size == 0) parents = *ops;
-  auto device = std::make_unique<Device>(std::move(driver), block_threads);
-  ops->preferred_mem_type = CEED_MEM_DEVICE;
-  ops->is_deterministic = !is_fused;
-  ops->host_memory_only = false;
-  ops->ceed_destroy = destroy;
-  ops->ceed_set_stream = set_stream;
-  fill_vector_ops(ops->vector);
-  fill_restriction_ops(ops->restriction);
-  fill_basis_ops(ops->basis);
-  fill_qfunction_ops(ops->qfunction);
-  fill_operator_ops(ops->op, is_fused);
-  chk(CeedSetData(ceed, device.get()));
-  device.release();
+int get_transfers(Ceed ceed, CeedTransfers *transfers) {
+  return wall(ceed, [&] { *transfers = Device::of(ceed).driver().transfers(); });
 }
 
-int parse_threads(const std::string &options) {
-  if (options.empty()) return Device::usual_threads;
-  constexpr std::string_view option = "threads=";
-  constexpr int fewest = 32, most = 1024;
-  int threads = 0;
-  const char *end = options.data() + options.size();
-  const char *number = options.data() + std::min(option.size(), options.size());
-  const auto [stop, error] = std::from_chars(number, end, threads);
-  if (!options.starts_with(option) || error != std::errc() || stop != end || threads < fewest || threads > most) {
-    throw DeviceError("there is no option '" + options + "'; expected threads=N, N from 32 to 1024");
+/// The number that follows `name`, from `fewest` to `most`.
+int parse_number(const std::string &option, std::string_view name, int fewest, int most) {
+  int number = 0;
+  const char *end = option.data() + option.size();
+  const auto [stop, error] = std::from_chars(option.data() + name.size(), end, number);
+  if (error != std::errc() || stop != end || number < fewest || number > most) {
+    throw DeviceError("option '" + option + "': expected a number from " + std::to_string(fewest) + " to " +
+                      std::to_string(most));
   }
-  return threads;
+  return number;
 }
 
 }  // namespace
@@ -64,12 +50,40 @@ const CeedBackendOps &parents_tables() {
   return parents;
 }
 
-int init_stages(Ceed ceed, std::shared_ptr<Driver> driver, CeedBackendOps *ops) {
-  return wall(ceed, [&] { init(ceed, std::move(driver), false, Device::usual_threads, ops); });
+Options parse_options(const std::string &text) {
+  constexpr std::string_view device = "device_id=", threads = "threads=";
+  Options options;
+  std::istringstream all(text);
+  for (std::string option; std::getline(all, option, ',');) {
+    if (option.starts_with(device)) {
+      options.device_id = parse_number(option, device, 0, std::numeric_limits<int>::max());
+    } else if (option.starts_with(threads)) {
+      options.threads = parse_number(option, threads, 32, 1024);
+    } else {
+      throw DeviceError("there is no option '" + option +
+                        "'; expected device_id=N, the number of a device, or threads=N, "
+                        "N from 32 to 1024");
+    }
+  }
+  return options;
 }
 
-int init_fused(Ceed ceed, std::shared_ptr<Driver> driver, const char *options, CeedBackendOps *ops) {
-  return wall(ceed, [&] { init(ceed, std::move(driver), true, parse_threads(options), ops); });
+void init(Ceed ceed, std::shared_ptr<Driver> driver, bool is_fused, const Options &options, CeedBackendOps *ops) {
+  if (parents.size == 0) parents = *ops;
+  auto device = std::make_unique<Device>(std::move(driver), options.threads);
+  ops->preferred_mem_type = CEED_MEM_DEVICE;
+  ops->is_deterministic = !is_fused;
+  ops->host_memory_only = false;
+  ops->ceed_destroy = destroy;
+  ops->ceed_set_stream = set_stream;
+  ops->ceed_get_transfers = get_transfers;
+  fill_vector_ops(ops->vector);
+  fill_restriction_ops(ops->restriction);
+  fill_basis_ops(ops->basis);
+  fill_qfunction_ops(ops->qfunction);
+  fill_operator_ops(ops->op, is_fused);
+  chk(CeedSetData(ceed, device.get()));
+  device.release();
 }
 
 }  // namespace hg::gpu

@@ -5,8 +5,9 @@
 #include <ceed/plugin.h>
 
 #include <memory>
+#include <string>
 
-#include "driver.hpp"
+#include "device.hpp"
 
 namespace hg::gpu {
 
@@ -16,12 +17,18 @@ void fill_basis_ops(CeedBasisOps &ops);
 void fill_qfunction_ops(CeedQFunctionOps &ops);
 void fill_operator_ops(CeedOperatorOps &ops, bool is_fused);
 
-/// Sets a Ceed up whose work is done in stages, a kernel each, on the device of `driver`: the backends .../ref. `ops`
-/// are those of the reference, which does what is not taken here.
-int init_stages(Ceed ceed, std::shared_ptr<Driver> driver, CeedBackendOps *ops);
-/// The same with operators that are one kernel where that is possible: the backends .../gen. `options`:
-/// "threads=N", most threads of a block, from 32 to 1024.
-int init_fused(Ceed ceed, std::shared_ptr<Driver> driver, const char *options, CeedBackendOps *ops);
+/// What follows the colon of a resource.
+struct Options {
+  int device_id = 0;                    ///< which device, from 0 on
+  int threads = Device::usual_threads;  ///< most threads of a block of a whole operator, from 32 to 1024
+};
+/// "device_id=1,threads=128". Throws DeviceError, with what was expected.
+Options parse_options(const std::string &text);
+
+/// Sets a Ceed up whose work is done in stages, a kernel each, on the device of `driver`: the backends .../ref; or,
+/// with is_fused, with operators that are one kernel where that is possible: the backends .../gen. `ops` are those of
+/// the reference, which does what is not taken here. Throws.
+void init(Ceed ceed, std::shared_ptr<Driver> driver, bool is_fused, const Options &options, CeedBackendOps *ops);
 
 /// A backend on a device, for a plugin's list.
 constexpr CeedBackend on_device(const char *resource, unsigned priority, decltype(CeedBackend::score) score,

@@ -80,20 +80,20 @@ namespace {
 
 class VendorDriver : public Driver {
  public:
-  explicit VendorDriver(const Vendor &vendor);
+  VendorDriver(const Vendor &vendor, int device);
 
   const Properties &properties() const override { return properties_; }
   void *allocate(std::size_t bytes) override;
   void free(void *memory) noexcept override;
-  void copy_to_device(void *to, const void *from, std::size_t bytes) override;
-  void copy_to_host(void *to, const void *from, std::size_t bytes) override;
   void copy(void *to, const void *from, std::size_t bytes) override;
-  void set_stream(void *stream) override { stream_ = stream; }
+  void set_stream(void *stream) override;
   std::unique_ptr<Module> compile(const std::string &name, const std::string &text) override;
   void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) override;
 
  private:
   friend class VendorModule;
+  void to_device(void *to, const void *from, std::size_t bytes) override;
+  void to_host(void *to, const void *from, std::size_t bytes) override;
   void check(int code, const char *what) const {
     if (code != 0) throw DeviceError(std::string(vendor_.name) + ": " + what + ": " + vendor_.error(library_, code));
   }
@@ -105,7 +105,7 @@ class VendorDriver : public Driver {
   VendorCompiler compiler_;
   Properties properties_;
   std::vector<std::string> options_;
-  int device_ = 0;
+  int device_;
   void *stream_ = nullptr;
 };
 
@@ -135,15 +135,20 @@ class VendorModule : public Module {
   void *module_ = nullptr;
 };
 
-VendorDriver::VendorDriver(const Vendor &vendor)
+VendorDriver::VendorDriver(const Vendor &vendor, int device)
     : vendor_(vendor),
       library_(vendor.driver_files),
       calls_(library_.calls<DriverCalls>(vendor.driver_names)),
-      compiler_(vendor) {
+      compiler_(vendor),
+      device_(device) {
   int count = 0;
   check(calls_.init(0), "it does not start");
   check(calls_.count_devices(&count), "devices cannot be counted");
   if (count == 0) throw DeviceError(std::string(vendor.name) + ": there is no device");
+  if (device >= count) {
+    throw DeviceError(std::string(vendor.name) + ": there is no device_id=" + std::to_string(device) +
+                      "; expected 0 to " + std::to_string(count - 1));
+  }
   make_current();
   char name[256] = "";
   check(calls_.name(name, sizeof name - 1, device_), "the device has no name");
@@ -175,15 +180,13 @@ void VendorDriver::free(void *memory) noexcept {
   calls_.free(memory);
 }
 
-void VendorDriver::copy_to_device(void *to, const void *from, std::size_t bytes) {
-  if (bytes == 0) return;
+void VendorDriver::to_device(void *to, const void *from, std::size_t bytes) {
   make_current();
   check(calls_.to_device(to, from, bytes, stream_), "a copy to the device failed");
   check(calls_.synchronize(stream_), "a copy to the device failed");  // `from` may change when this returns
 }
 
-void VendorDriver::copy_to_host(void *to, const void *from, std::size_t bytes) {
-  if (bytes == 0) return;
+void VendorDriver::to_host(void *to, const void *from, std::size_t bytes) {
   make_current();
   check(calls_.to_host(to, from, bytes, stream_), "a copy to the host failed");
   check(calls_.synchronize(stream_), "work on the device failed");
@@ -195,9 +198,18 @@ void VendorDriver::copy(void *to, const void *from, std::size_t bytes) {
   check(calls_.copy(to, from, bytes, stream_), "a copy on the device failed");
 }
 
+void VendorDriver::set_stream(void *stream) {
+  if (stream == stream_) return;
+  make_current();
+  check(calls_.synchronize(stream_), "work on the device failed");  // what comes next reads what was written there
+  stream_ = stream;
+}
+
 std::unique_ptr<Module> VendorDriver::compile(const std::string &name, const std::string &text) {
   make_current();
-  return std::make_unique<VendorModule>(*this, name, compiler_.compile(name, text, options_));
+  // The device is a part of the text, by which code is found again: HIP's options do not name its architecture.
+  const std::string for_device = "// " + properties_.name + '\n' + text;
+  return std::make_unique<VendorModule>(*this, name, compiler_.compile(name, for_device, options_));
 }
 
 void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, std::size_t) {
@@ -219,8 +231,8 @@ void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, 
 
 }  // namespace
 
-std::shared_ptr<Driver> make_driver(const Vendor &vendor) {
-  return std::make_shared<VendorDriver>(vendor);
+std::shared_ptr<Driver> make_driver(const Vendor &vendor, int device) {
+  return std::make_shared<VendorDriver>(vendor, device);
 }
 
 int score_of(const Vendor &vendor, const char **reason) {
@@ -228,7 +240,7 @@ int score_of(const Vendor &vendor, const char **reason) {
   static std::map<std::string, std::string> reasons;  // they are pointed to
   const std::scoped_lock one_thread(mutex);
   try {
-    make_driver(vendor);
+    make_driver(vendor, 0);
     return 1;
   } catch (const DeviceError &error) {
     *reason = (reasons[vendor.name] = error.what()).c_str();

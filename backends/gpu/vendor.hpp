@@ -102,9 +102,9 @@ class VendorCompiler {
   std::string version_;
 };
 
-/// The first device of a vendor. Throws DeviceError where there is none.
-std::shared_ptr<Driver> make_driver(const Vendor &vendor);
-/// For CeedBackend::score: 0 where make_driver() fails, and why.
+/// A device of a vendor, from 0 on. Throws DeviceError where there is none.
+std::shared_ptr<Driver> make_driver(const Vendor &vendor, int device);
+/// For CeedBackend::score: 0 where there is no device 0, and why.
 int score_of(const Vendor &vendor, const char **reason);
 
 }  // namespace hg::gpu

@@ -8,7 +8,8 @@ namespace hg::hip {
 
 namespace {
 
-constexpr CeedBackend backends[] = {gpu::fused_of<vendor>("/gpu/hip/gen"), gpu::stages_of<vendor>("/gpu/hip/ref")};
+constexpr CeedBackend backends[] = {gpu::backend_of<vendor, true>("/gpu/hip/gen"),
+                                    gpu::backend_of<vendor, false>("/gpu/hip/ref")};
 
 constexpr CeedPlugin plugin{.size = sizeof(CeedPlugin),
                             .api_version = CEED_PLUGIN_API_VERSION,

@@ -242,6 +242,7 @@ int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedI
 void fill_operator_ops(CeedOperatorOps &ops) {
   ops = {.create = nullptr,
          .destroy = nullptr,
+         .prepare = nullptr,
          .apply_add = apply_add,
          .linear_assemble_qfunction = linear_assemble_qfunction,
          .linear_assemble = nullptr,

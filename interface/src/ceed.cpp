@@ -97,6 +97,15 @@ int CeedSetStream(Ceed ceed, void *handle) {
   });
 }
 
+int CeedGetTransfers(Ceed ceed, CeedTransfers *transfers) {
+  return hg::guard(ceed, [&] {
+    const auto get = hg::deref(ceed, "Ceed").ops.ceed_get_transfers;
+    CeedTransfers counted{};
+    if (get != nullptr) hg::check(get(ceed, &counted));
+    hg::result(transfers, "transfers") = counted;
+  });
+}
+
 int CeedGetResource(Ceed ceed, const char **resource) {
   return hg::guard(ceed, [&] { hg::result(resource, "resource") = hg::deref(ceed, "Ceed").resource.c_str(); });
 }

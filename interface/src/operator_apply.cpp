@@ -92,6 +92,17 @@ void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passiv
 
 }  // namespace
 
+int CeedOperatorPrepare(CeedOperator op) {
+  return hg::guard(hg::ceed_of(op), [&] {
+    hg::check_ready(hg::deref(op, "CeedOperator"));
+    hg::for_each_single(*op, [&](CeedOperator_private &single) {
+      const CeedProgram &program = hg::program_of(single);
+      const auto prepare = single.ceed->ops.op.prepare;
+      if (prepare != nullptr && program.num_elem > 0) hg::check(prepare(&single, &program));
+    });
+  });
+}
+
 int CeedOperatorApply(CeedOperator op, CeedVector in, CeedVector out, CeedRequest *) {
   return hg::guard(hg::ceed_of(op), [&] { apply(op, in, out, false, Passive::write); });
 }

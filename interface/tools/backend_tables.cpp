@@ -20,6 +20,7 @@ struct Entry {
 constexpr Entry all_entries[] = {
     {"ceed.destroy", offsetof(CeedBackendOps, ceed_destroy)},
     {"ceed.set_stream", offsetof(CeedBackendOps, ceed_set_stream)},
+    {"ceed.get_transfers", offsetof(CeedBackendOps, ceed_get_transfers)},
     {"vector.create", offsetof(CeedBackendOps, vector.create)},
     {"vector.destroy", offsetof(CeedBackendOps, vector.destroy)},
     {"vector.set_array", offsetof(CeedBackendOps, vector.set_array)},
@@ -57,6 +58,7 @@ constexpr Entry all_entries[] = {
     {"qfunction.set_hip_function", offsetof(CeedBackendOps, qfunction.set_hip_function)},
     {"op.create", offsetof(CeedBackendOps, op.create)},
     {"op.destroy", offsetof(CeedBackendOps, op.destroy)},
+    {"op.prepare", offsetof(CeedBackendOps, op.prepare)},
     {"op.apply_add", offsetof(CeedBackendOps, op.apply_add)},
     {"op.linear_assemble_qfunction", offsetof(CeedBackendOps, op.linear_assemble_qfunction)},
     {"op.linear_assemble", offsetof(CeedBackendOps, op.linear_assemble)},

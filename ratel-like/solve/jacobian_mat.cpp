@@ -48,7 +48,10 @@ JacobianMat::JacobianMat(const Mesh &mesh, Type type) : mesh_(mesh), type_(type)
   petsc_check(VecGetLocalSize(global, &num_rows_));
   petsc_check(VecGetOwnershipRange(global, &first_row_, nullptr));
   if (type == Type::shell) {
+    VecType vec_type;  // the matrix gives out vectors like those of the mesh, on a device where they are
+    petsc_check(DMGetVecType(mesh.dm, &vec_type));
     petsc_check(MatCreateShell(mesh.comm, num_rows_, num_rows_, PETSC_DETERMINE, PETSC_DETERMINE, this, mat_.put()));
+    petsc_check(MatShellSetVecType(mat_, vec_type));
     petsc_check(MatShellSetOperation(mat_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply_callback)));
     petsc_check(MatShellSetOperation(mat_, MATOP_MULT_TRANSPOSE, reinterpret_cast<void (*)()>(multiply_callback)));
     petsc_check(MatShellSetOperation(mat_, MATOP_GET_DIAGONAL, reinterpret_cast<void (*)()>(diagonal_callback)));
@@ -72,9 +75,9 @@ JacobianMat::JacobianMat(const Mesh &mesh, Type type) : mesh_(mesh), type_(type)
   }
 }
 
-void JacobianMat::set_operator(CeedOperator op, std::vector<PetscInt> inactive) {
+void JacobianMat::set_operator(CeedOperator op, const InactiveRows &inactive) {
   op_ = op;
-  inactive_ = std::move(inactive);
+  inactive_ = &inactive;
   if (type_ == Type::aij) pattern();
 }
 
@@ -116,7 +119,7 @@ void JacobianMat::update(double damping) {
     std::vector<PetscScalar> all(values, values + count);
     ceed_check(CeedVectorRestoreArrayRead(entries_, &values));
     all.resize(count + num_rows_, 0.);
-    for (PetscInt row : inactive_) all[count + row] = 1.;
+    for (PetscInt row : inactive_->rows()) all[count + row] = 1.;
     petsc_check(MatSetValuesCOO(mat_, all.data(), INSERT_VALUES));
   }
   petsc_check(MatAssemblyBegin(mat_, MAT_FINAL_ASSEMBLY));
@@ -150,14 +153,7 @@ void JacobianMat::multiply(Vec x, Vec y) {
   petsc_check(VecZeroEntries(y));
   petsc_check(DMLocalToGlobal(mesh_.dm, local_out_, ADD_VALUES, y));
   if (shift_ != 0) petsc_check(VecAXPY(y, shift_, x));
-  if (inactive_.empty()) return;
-  const PetscScalar *from;
-  PetscScalar *to;
-  petsc_check(VecGetArrayRead(x, &from));
-  petsc_check(VecGetArray(y, &to));
-  for (PetscInt row : inactive_) to[row] = from[row];
-  petsc_check(VecRestoreArray(y, &to));
-  petsc_check(VecRestoreArrayRead(x, &from));
+  inactive_->copy(x, y);
 }
 
 void JacobianMat::diagonal(Vec d) {
@@ -169,11 +165,7 @@ void JacobianMat::diagonal(Vec d) {
   petsc_check(VecZeroEntries(d));
   petsc_check(DMLocalToGlobal(mesh_.dm, local_out_, ADD_VALUES, d));
   if (shift_ != 0) petsc_check(VecShift(d, shift_));
-  if (inactive_.empty()) return;
-  PetscScalar *to;
-  petsc_check(VecGetArray(d, &to));
-  for (PetscInt row : inactive_) to[row] = 1.;
-  petsc_check(VecRestoreArray(d, &to));
+  inactive_->set_to_one(d);
 }
 
 }  // namespace hg

@@ -9,6 +9,7 @@
 
 #include "mesh/mesh.hpp"
 #include "options/handle.hpp"
+#include "solve/inactive_rows.hpp"
 
 namespace hg {
 
@@ -26,9 +27,9 @@ class JacobianMat {
   Mat mat() const { return mat_; }
   Type type() const { return type_; }
 
-  /// From now on the matrix is that of `op` (borrowed), which maps local vectors to local vectors.
-  /// `inactive` holds the rows of the identity, counted from this rank's first row, ascending. Collective.
-  void set_operator(CeedOperator op, std::vector<PetscInt> inactive);
+  /// From now on the matrix is that of `op` (borrowed), which maps local vectors to local vectors, and of rows of the
+  /// identity (borrowed). Collective.
+  void set_operator(CeedOperator op, const InactiveRows &inactive);
 
   /// Brings the matrix up to date with the data of the operator, plus `damping` times the mean of its diagonal's size
   /// on the diagonal. Collective.
@@ -51,7 +52,8 @@ class JacobianMat {
   CeedOperator op_ = nullptr;
   PetscInt num_rows_ = 0, first_row_ = 0;  ///< of this rank
   double shift_ = 0;                       ///< added to the diagonal
-  std::vector<PetscInt> inactive_, global_index_;
+  const InactiveRows *inactive_ = nullptr;
+  std::vector<PetscInt> global_index_;
   VecHandle local_in_, local_out_;
   CeedVectorHandle ceed_in_, ceed_out_, entries_;
   std::vector<CeedInt> rows_, columns_;  ///< of the pattern in force, to know when it changes

@@ -111,9 +111,8 @@ void StaticSolver::operators_changed(const std::vector<char> &active_cells) {
     const PetscInt row = jacobian_->global_index()[i];
     if (row >= first && row < end && active[i / 3] == 0) inactive.push_back(row - first);
   }
-  std::sort(inactive.begin(), inactive.end());
-  inactive_ = inactive;
-  jacobian_->set_operator(operators_.jacobian(), std::move(inactive));
+  inactive_.set(std::move(inactive), residual_);
+  jacobian_->set_operator(operators_.jacobian(), inactive_);
 }
 
 void StaticSolver::external_force(const Step &step) {
@@ -154,16 +153,7 @@ bool StaticSolver::residual(Vec u, Vec f) {
   local_residual(u);
   petsc_check(VecZeroEntries(f));
   petsc_check(DMLocalToGlobal(mesh_.dm, local_r_, ADD_VALUES, f));
-  if (!inactive_.empty()) {
-    // No material: the row says that the increment is zero.
-    const PetscScalar *from;
-    PetscScalar *to;
-    petsc_check(VecGetArrayRead(u, &from));
-    petsc_check(VecGetArray(f, &to));
-    for (PetscInt row : inactive_) to[row] = from[row];
-    petsc_check(VecRestoreArray(f, &to));
-    petsc_check(VecRestoreArrayRead(u, &from));
-  }
+  inactive_.copy(u, f);  // no material: the row says that the increment is zero
   return finite_everywhere(f);
 }
 

@@ -92,7 +92,7 @@ class StaticSolver {
   double last_norm_ = 0;         ///< of the residual at the Jacobian before
   bool keep_tolerance_ = false;  ///< the user gave -snes_atol
   std::unique_ptr<JacobianMat> jacobian_;
-  std::vector<PetscInt> inactive_;
+  InactiveRows inactive_;
   /// Ways to solve a step, tried in turn from the same guess.
   struct Attempt {
     bool slope_search;  ///< else the line search of the options

@@ -8,6 +8,7 @@
 #include "bakeoff_operator.hpp"
 #include "support/errors.hpp"
 #include "support/handles.hpp"
+#include "support/program.hpp"
 
 namespace {
 
@@ -42,6 +43,24 @@ TEST_P(FusedTest, TakesAssemblies) {
     ok(CeedVectorNorm(values, CEED_NORM_MAX, &norm));
     EXPECT_GT(norm, 0) << kind;
   }
+}
+
+/// Timings of applications and assemblies hide no compilation.
+TEST_P(FusedTest, IsCompiledAheadOfTime) {
+  const EmptyCache cache;
+  ok(CeedOperatorPrepare(op));
+  const std::size_t prepared = cache.num_files();
+  EXPECT_GT(prepared, 0U);
+  CeedSize length = 0;
+  ok(CeedOperatorGetActiveVectorLengths(op, &length, nullptr));
+  Vector in, out;
+  ok(CeedVectorCreate(ceed, length, in.out()));
+  ok(CeedVectorCreate(ceed, length, out.out()));
+  ok(CeedVectorSetValue(in, 1));
+  ok(CeedVectorSetValue(out, 0));
+  const std::size_t before = cache.num_files();  // vectors have kernels of the library
+  ok(CeedOperatorApply(op, in, out, CEED_REQUEST_IMMEDIATE));
+  EXPECT_EQ(cache.num_files(), before);
 }
 
 INSTANTIATE_TEST_SUITE_P(Points, FusedTest, testing::Values(0, 27),

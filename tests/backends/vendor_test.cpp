@@ -9,11 +9,13 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "backends/cuda/vendor.hpp"
 #include "backends/gpu/operator_text.hpp"
 #include "backends/gpu/qfunction.hpp"
+#include "backends/gpu/tables.hpp"
 #include "backends/gpu/texts.hpp"
 #include "backends/gpu/vendor.hpp"
 #include "backends/hip/vendor.hpp"
@@ -136,29 +138,6 @@ gpu::OperatorText text_of(CeedOperator op, int warp_size, gpu::Purpose purpose =
                             : gpu::elements_text(block, *program, function, purpose);
 }
 
-/// A cache without anything in it, for a scope.
-class EmptyCache {
- public:
-  EmptyCache() {
-    if (const char *usual = std::getenv(name)) usual_ = usual;
-    ::setenv(name, folder_.path().c_str(), 1);
-  }
-  EmptyCache(const EmptyCache &) = delete;
-  EmptyCache &operator=(const EmptyCache &) = delete;
-  ~EmptyCache() {
-    if (usual_) {
-      ::setenv(name, usual_->c_str(), 1);
-    } else {
-      ::unsetenv(name);
-    }
-  }
-
- private:
-  static constexpr const char *name = "CEED_CACHE_DIR";
-  const test::TemporaryFolder folder_;
-  std::optional<std::string> usual_;
-};
-
 /// The first number right before `words` in what a compiler printed. (Not by <regex>: GCC 12 warns of it when it
 /// sanitizes.)
 std::optional<int> number_before(const std::string &words, const std::string &log) {
@@ -172,7 +151,7 @@ std::optional<int> number_before(const std::string &words, const std::string &lo
 /// Whole operators, with what NVIDIA's compiler says of registers and spills: the table of docs/performance/gpu.md.
 /// What is spilled are a few numbers of kernels that leave room for more threads (1024 at quadrature points).
 TEST_P(VendorTest, CompilesTheBakeoffProblems) {
-  const EmptyCache cache;  // what is found in one says nothing
+  const test::EmptyCache cache;  // what is found in one says nothing
   const test::CeedHandle ceed(test::open("/cpu/self/ref"));
   const bool is_cuda = &target().vendor == &cuda::vendor;
   for (const CeedInt per_cell : {0, 27}) {
@@ -207,7 +186,7 @@ TEST_P(VendorTest, CompilesTheBakeoffProblems) {
 
 /// Assemblies of mass and of 3-vector Poisson problems.
 TEST_P(VendorTest, CompilesAssemblies) {
-  const EmptyCache cache;
+  const test::EmptyCache cache;
   const test::CeedHandle ceed(test::open("/cpu/self/ref"));
   const bool is_cuda = &target().vendor == &cuda::vendor;
   for (const CeedInt per_cell : {0, 27}) {
@@ -250,6 +229,31 @@ TEST_P(VendorTest, SaysWhatIsWrongWithAText) {
     const std::string message = error.what();
     EXPECT_NE(message.find("own.h"), std::string::npos) << message;
     EXPECT_NE(message.find("nothing"), std::string::npos) << message;
+  }
+}
+
+TEST(DeviceOptions, AreRead) {
+  const gpu::Options usual = gpu::parse_options(""), both = gpu::parse_options("device_id=1,threads=128");
+  EXPECT_EQ(usual.device_id, 0);
+  EXPECT_EQ(usual.threads, gpu::Device::usual_threads);
+  EXPECT_EQ(both.device_id, 1);
+  EXPECT_EQ(both.threads, 128);
+}
+
+TEST(DeviceOptions, AreRefusedWithWhatWasExpected) {
+  const std::pair<const char *, std::vector<const char *>> cases[] = {
+      {"threads=16", {"'threads=16'", "32 to 1024"}},
+      {"threads=", {"'threads='", "32 to 1024"}},
+      {"threads=64x", {"'threads=64x'", "32 to 1024"}},
+      {"device_id=-1", {"'device_id=-1'", "0 to"}},
+      {"threads=64,colour=red", {"'colour=red'", "device_id=N", "threads=N"}}};
+  for (const auto &[text, words] : cases) {
+    try {
+      gpu::parse_options(text);
+      FAIL() << text << " was taken";
+    } catch (const gpu::DeviceError &error) {
+      for (const char *word : words) EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
   }
 }
 

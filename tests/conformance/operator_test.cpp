@@ -325,6 +325,16 @@ TEST_P(OperatorTest, CountsItsMemory) {
   }
 }
 
+/// Once or twice, it acts as one that was not.
+TEST_P(OperatorTest, IsPreparedAheadOfTime) {
+  const Box mesh(2, 2, 3);
+  const EllipticOperator poisson(ceed, mesh, Elliptic::poisson, 1, 3), other(ceed, mesh, Elliptic::poisson, 1, 3);
+  const Values in(poisson.size(), 1);
+  ok(CeedOperatorPrepare(poisson.op));
+  ok(CeedOperatorPrepare(poisson.op));
+  expect_close(poisson.apply(in), other.apply(in), tolerance(100), "action");
+}
+
 TEST_P(OperatorTest, KeepsNamesAndFields) {
   const Box mesh(1, 2, 2);
   const AffineOperator op(ceed, mesh, 3, 1, {1, 0, 0, false});

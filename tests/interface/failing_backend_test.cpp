@@ -114,7 +114,8 @@ int init(Ceed, const char *, CeedBackendOps *ops) {
   replace<op, &CeedOperatorOps::apply_add>(*ops);
   replace<op, &CeedOperatorOps::linear_assemble_qfunction>(*ops);
   replace<op, &CeedOperatorOps::get_memory>(*ops);
-  replace_those_that_are<op, &CeedOperatorOps::linear_assemble, &CeedOperatorOps::linear_assemble_elements>(*ops);
+  replace_those_that_are<op, &CeedOperatorOps::prepare, &CeedOperatorOps::linear_assemble,
+                         &CeedOperatorOps::linear_assemble_elements>(*ops);
   ops->op.destroy = call_and_free<op, &CeedOperatorOps::destroy, CeedOperator>;
   replace<context, &CeedQFunctionContextOps::get_data_read>(*ops);
   replace<context, &CeedQFunctionContextOps::restore_data_read>(*ops);

@@ -301,6 +301,7 @@ void use_operator(Ceed ceed) {
   CeedSize flops = 0;
   must(CeedOperatorGetFlopsEstimate(doubled.op, &flops));
   CeedOperatorMemory memory{};
+  must(CeedOperatorPrepare(doubled.op));
   must(CeedOperatorGetMemory(doubled.op, &memory));
   must(CeedOperatorView(doubled.op, nowhere()));
 }

@@ -4,6 +4,10 @@ hg_mechanics_test(options_group_test)
 hg_mechanics_test(solve_clock_test)
 hg_mechanics_test(boundary_conditions_test RANKS 1 2 3)
 hg_mechanics_test(static_solver_test RANKS 1 2 3)
+if(TARGET ceed_emu)
+  hg_mechanics_test(device_vectors_test ENVIRONMENT "CEED_GEN_FLAGS=${hg_compiled_flags}")
+  add_dependencies(device_vectors_test ceed_emu)
+endif()
 hg_mechanics_test(monitors_test RANKS 1 2 3)
 
 # hg_program_test(name [LONG] [TIMEOUT seconds]): tests that run the program; no MPI in the test itself.

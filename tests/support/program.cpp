@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -33,6 +34,30 @@ TemporaryFolder::TemporaryFolder() {
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+}
+
+namespace {
+
+constexpr const char *cache_variable = "CEED_CACHE_DIR";
+
+}  // namespace
+
+EmptyCache::EmptyCache() {
+  if (const char *usual = std::getenv(cache_variable)) usual_ = usual;
+  ::setenv(cache_variable, folder_.path().c_str(), 1);
+}
+
+EmptyCache::~EmptyCache() {
+  if (usual_) {
+    ::setenv(cache_variable, usual_->c_str(), 1);
+  } else {
+    ::unsetenv(cache_variable);
+  }
+}
+
+std::size_t EmptyCache::num_files() const {
+  const std::filesystem::recursive_directory_iterator files(folder_.path());
+  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
 }
 
 std::string read_text(const std::filesystem::path &file) {

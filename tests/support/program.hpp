@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace hg::test {
@@ -30,6 +31,21 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+};
+
+/// What is compiled at run time is kept in a folder of its own, empty at first, for a scope: CEED_CACHE_DIR.
+class EmptyCache {
+ public:
+  EmptyCache();
+  EmptyCache(const EmptyCache &) = delete;
+  EmptyCache &operator=(const EmptyCache &) = delete;
+  ~EmptyCache();
+  /// Files in it.
+  std::size_t num_files() const;
+
+ private:
+  TemporaryFolder folder_;
+  std::optional<std::string> usual_;
 };
 
 std::string read_text(const std::filesystem::path &file);

@@ -415,6 +415,12 @@ CEED_EXTERN int CeedOperatorSetData(CeedOperator op, void *data);
 /// Counts one reference more.
 CEED_EXTERN int CeedOperatorReference(CeedOperator op);
 
+/// Compiles, and brings to a device, what the first application would compile and bring there; of a composite, for all its
+/// parts. Nothing is done twice, and an operator that is not prepared is so by its first application.
+/// Errors: those of CeedOperatorCheckReady(), which is called where it was not, and CEED_ERROR_BACKEND: it cannot be
+/// compiled.
+CEED_EXTERN int CeedOperatorPrepare(CeedOperator op);
+
 /// Bytes that an operator works with, beside its active input and output. An array that several fields or parts share
 /// counts once; one that was lent by its user counts, too.
 typedef struct {
@@ -430,6 +436,16 @@ typedef struct {
 /// of CeedOperatorCheckReady(), which is called where it was not (CEED_ERROR_INCOMPLETE, CEED_ERROR_DIMENSION,
 /// CEED_ERROR_INCOMPATIBLE).
 CEED_EXTERN int CeedOperatorGetMemory(CeedOperator op, CeedOperatorMemory *memory);
+
+/// What has gone between the memories of the host and of a device.
+typedef struct {
+  CeedSize num_to_device;    ///< copies to the device
+  CeedSize bytes_to_device;  ///< bytes of them
+  CeedSize num_to_host;      ///< copies to the host
+  CeedSize bytes_to_host;    ///< bytes of them
+} CeedTransfers;
+/// Counts them in *transfers, since `ceed` was made; all 0 where its backend works on the host.
+CEED_EXTERN int CeedGetTransfers(Ceed ceed, CeedTransfers *transfers);
 /// @}
 
 #endif

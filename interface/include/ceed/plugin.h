@@ -196,6 +196,8 @@ typedef enum {
 typedef struct {
   int (*create)(CeedOperator op, const CeedProgram *program);  ///< optional; after lowering
   int (*destroy)(CeedOperator op);                             ///< optional
+  /// Optional: what takes time when apply_add() is first called.
+  int (*prepare)(CeedOperator op, const CeedProgram *program);
   /// in, out: L-vectors, or CEED_VECTOR_NONE where the operator has no active input or output.
   int (*apply_add)(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// The QFunction's matrix at each point of the elements [first_elem, first_elem + num_elem): num_active_in *
@@ -203,10 +205,10 @@ typedef struct {
   /// fastest; at points one element after another, component fastest. `values` may be longer than that.
   int (*linear_assemble_qfunction)(CeedOperator op, const CeedProgram *program, CeedInt first_elem, CeedInt num_elem,
                                    CeedVector values);
-  /// All of an assembly, where the backend works. CEED_ASSEMBLE_MATRIX: the entries go to values[offset] and beyond, 0
-  /// before, in the order of CeedOperatorLinearAssembleSymbolic(); else they are added to the diagonal or the point-block
-  /// diagonal `values`. Optional, and *is_done = false says that this one is not taken: the core assembles the QFunction
-  /// and contracts, as it does where an assembled QFunction is kept.
+  /// All of an assembly, where the backend works. CEED_ASSEMBLE_MATRIX: the entries go to values[offset] and beyond,
+  /// which are 0 before, in the order of CeedOperatorLinearAssembleSymbolic(); else they are added to the diagonal or
+  /// the point-block diagonal `values`. Optional, and *is_done = false says that this one is not taken: the core
+  /// assembles the QFunction and contracts, as it does where an assembled QFunction is kept.
   int (*linear_assemble)(CeedOperator op, const CeedProgram *program, CeedAssembleKind kind, CeedSize offset,
                          CeedVector values, bool *is_done);
   /// Contracts the QFunction's matrices `qfunction` of some elements, as linear_assemble_qfunction() gives them, with
@@ -235,13 +237,14 @@ typedef struct {
   bool is_deterministic;           ///< the same operator applied twice gives the same bits
   bool host_memory_only;           ///< CEED_MEM_DEVICE is refused before it reaches the tables
   int (*ceed_destroy)(Ceed ceed);  ///< optional: frees CeedGetData()
-  int (*ceed_set_stream)(Ceed ceed, void *handle);  ///< optional
-  CeedVectorOps vector;                             ///< what it does with vectors,
-  CeedElemRestrictionOps restriction;               ///< restrictions,
-  CeedBasisOps basis;                               ///< bases,
-  CeedQFunctionOps qfunction;                       ///< QFunctions,
-  CeedOperatorOps op;                               ///< operators,
-  CeedQFunctionContextOps context;                  ///< and contexts
+  int (*ceed_set_stream)(Ceed ceed, void *handle);                 ///< optional
+  int (*ceed_get_transfers)(Ceed ceed, CeedTransfers *transfers);  ///< optional: there are none
+  CeedVectorOps vector;                                            ///< what it does with vectors,
+  CeedElemRestrictionOps restriction;                              ///< restrictions,
+  CeedBasisOps basis;                                              ///< bases,
+  CeedQFunctionOps qfunction;                                      ///< QFunctions,
+  CeedOperatorOps op;                                              ///< operators,
+  CeedQFunctionContextOps context;                                 ///< and contexts
 } CeedBackendOps;
 
 /// One backend of a plugin.

@@ -75,6 +75,7 @@ struct Objects {
   CeedInt number = 0, second_number = 0, three[3] = {1, 3, 3};
   CeedSize size = 0, second_size = 0;
   CeedOperatorMemory memory{};
+  CeedTransfers transfers{};
   CeedScalar scalar = 0;
   std::size_t count = 0, second_count = 0;
   std::uint64_t state = 0;

@@ -39,6 +39,7 @@ std::vector<Case> ceed_cases() {
       HG_CASE(CeedGetData, o.ceed, static_cast<void *>(&o.pointer)),
       HG_CASE(CeedSetData, o.ceed, optional(static_cast<void *>(o.matrix))),
       HG_CASE(CeedGetBackendOps, o.ceed, &o.ops),
+      HG_CASE(CeedGetTransfers, o.ceed, &o.transfers),
       HG_CASE(CeedGetWorkVector, o.ceed, 3, &o.work_vector),
       HG_CASE_AFTER(CeedGetWorkVector(o.ceed, 3, &o.work_vector), CeedRestoreWorkVector, o.ceed, &o.work_vector),
       HG_CASE(CeedClearWorkVectors, o.ceed, 0),

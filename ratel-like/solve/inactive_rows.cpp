@@ -1,0 +1,36 @@
+#include "solve/inactive_rows.hpp"
+
+#include <utility>
+
+#include "options/error.hpp"
+
+namespace hg {
+
+void InactiveRows::set(std::vector<PetscInt> rows, Vec like) {
+  rows_ = std::move(rows);
+  if (!inactive_) {
+    for (VecHandle *vec : {&inactive_, &active_, &work_}) petsc_check(VecDuplicate(like, vec->put()));
+  }
+  PetscScalar *array;
+  petsc_check(VecZeroEntries(inactive_));
+  petsc_check(VecGetArray(inactive_, &array));
+  for (const PetscInt row : rows_) array[row] = 1;
+  petsc_check(VecRestoreArray(inactive_, &array));
+  petsc_check(VecSet(active_, 1.));
+  petsc_check(VecAXPY(active_, -1., inactive_));
+}
+
+void InactiveRows::copy(Vec from, Vec to) const {
+  if (rows_.empty()) return;
+  petsc_check(VecPointwiseMult(work_, inactive_, from));
+  petsc_check(VecPointwiseMult(to, active_, to));
+  petsc_check(VecAXPY(to, 1., work_));
+}
+
+void InactiveRows::set_to_one(Vec to) const {
+  if (rows_.empty()) return;
+  petsc_check(VecPointwiseMult(to, active_, to));
+  petsc_check(VecAXPY(to, 1., inactive_));
+}
+
+}  // namespace hg

@@ -1,0 +1,31 @@
+/// @file
+/// Equations of places where no material is.
+#pragma once
+
+#include <petscvec.h>
+
+#include <vector>
+
+#include "options/handle.hpp"
+
+namespace hg {
+
+/// Rows of the identity among those of a global vector. Works in the memory that PETSc has its vectors in: by products
+/// with vectors of zeros and ones, so that nothing is copied between a device and the host.
+class InactiveRows {
+ public:
+  /// `rows` are counted from this rank's first one; `like` is a vector of the layout. Collective.
+  void set(std::vector<PetscInt> rows, Vec like);
+  const std::vector<PetscInt> &rows() const { return rows_; }
+
+  /// to[row] = from[row] for each of them; the other entries stay as they are, these must be finite.
+  void copy(Vec from, Vec to) const;
+  /// to[row] = 1
+  void set_to_one(Vec to) const;
+
+ private:
+  std::vector<PetscInt> rows_;
+  VecHandle inactive_, active_, work_;  ///< 1 there and 0 elsewhere, and the other way round
+};
+
+}  // namespace hg
