@@ -21,7 +21,7 @@ libraries_of() {
   ldd "$@" 2>/dev/null | awk '$3 ~ "^/" { print $3 }' | sort -u |
     grep -vE '/(ld-linux.*|libc|libm|libdl|librt|libpthread|libresolv|libutil)\.so' | grep -v "/libceed.so" || true
 }
-# Open MPI's parts are found by OPAL_PREFIX, PMIx's by PMIX_INSTALL_PREFIX.
+# The parts that Open MPI loads, which are found by OPAL_PKGLIBDIR.
 mpi=$(dirname "$(realpath "$(ldd "$build/bin/honeyguide" | awk '$1 ~ /^libmpi\.so/ { print $3 }')")")/openmpi
 parts=()
 if [ -d "$mpi/lib/openmpi3" ]; then
@@ -42,7 +42,8 @@ cat > "$bundle/run.sh" <<'END'
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 export LD_LIBRARY_PATH=$here/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}:/usr/local/cuda/lib64:/opt/rocm/lib
-export OPAL_PREFIX=$here/openmpi OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_btl=self OMPI_MCA_plm=isolated
+export OPAL_PREFIX=$here/openmpi OPAL_PKGLIBDIR=$here/openmpi/lib/openmpi3 OPAL_PKGDATADIR=$here/openmpi/share/openmpi
+export OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_plm=isolated OMPI_MCA_pml=ob1 OMPI_MCA_btl=self OMPI_MCA_osc=^ucx
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
 export CEED_CACHE_DIR=${CEED_CACHE_DIR:-$here/compiled}
 if [ $# -gt 0 ]; then exec "$here/bin/honeyguide" "$@"; fi
