@@ -21,7 +21,8 @@
 /// - `copy_mode`: what becomes of an array that is handed over
 /// - `t_mode`: CEED_TRANSPOSE for the way from points to nodes, or from elements to the L-vector
 /// - `eval_mode`: what of a field is meant: its values, a derivative, the weights
-/// - `request`: CEED_REQUEST_IMMEDIATE or CEED_REQUEST_ORDERED, or NULL; all work is complete on return with any
+/// - `request`: CEED_REQUEST_IMMEDIATE or CEED_REQUEST_ORDERED, or NULL; with any, work is complete on return, or on
+///   a device in its stream: whatever reads the results through this interface waits for it
 /// - `stream`: an open file, which is written to
 /// - `num_tabs`: the steps, of two spaces each, by which View indents; 0 or more
 ///
@@ -64,7 +65,7 @@
 
 /// A backend with its resources; every other object belongs to one.
 typedef struct Ceed_private *Ceed;
-/// Marks work that has been started; all work is complete on return at present.
+/// Marks work that has been started; none is left open at present.
 typedef struct CeedRequest_private *CeedRequest;
 /// An array of CeedScalar on host or device, with access control.
 typedef struct CeedVector_private *CeedVector;
@@ -327,7 +328,7 @@ CEED_EXTERN int CeedVectorGetLength(CeedVector vec, CeedSize *length);
 /// Drops one reference and sets *vec to NULL; a NULL handle is fine.
 CEED_EXTERN int CeedVectorDestroy(CeedVector *vec);
 
-/// For the argument `request`: complete on return.
+/// For the argument `request`: complete on return, or in the stream of a device.
 CEED_EXTERN CeedRequest *const CEED_REQUEST_IMMEDIATE;
 /// For the argument `request`: complete in the order of the calls.
 CEED_EXTERN CeedRequest *const CEED_REQUEST_ORDERED;
