@@ -85,12 +85,25 @@ int destroy(CeedQFunction qf) {
   return CEED_ERROR_SUCCESS;
 }
 
+/// How an output of Q points is written: what a longer vector has beyond them stays.
+host::Writer::Mode mode_of(CeedVector vec, CeedQFunctionField field, CeedInt Q) {
+  CeedInt size = 0;
+  CeedSize length = 0;
+  bool has_values = false;
+  chk(CeedQFunctionFieldGetSize(field, &size));
+  chk(CeedVectorGetLength(vec, &length));
+  chk(CeedVectorHasValidArray(vec, &has_values));
+  const bool is_longer = length > static_cast<CeedSize>(Q) * size;
+  return is_longer && has_values ? host::Writer::read_write : host::Writer::write_only;
+}
+
 int apply(CeedQFunction qf, CeedInt Q, const CeedVector *u, const CeedVector *v) {
   return wall(CeedQFunctionReturnCeed(qf), [&] {
     PointFunction *function = function_of(qf);
     if (function == nullptr) return chk(parents_tables().qfunction.apply(qf, Q, u, v));
     CeedInt num_inputs = 0, num_outputs = 0;
-    chk(CeedQFunctionGetNumArgs(qf, &num_inputs, &num_outputs));
+    CeedQFunctionField *fields = nullptr;
+    chk(CeedQFunctionGetFields(qf, &num_inputs, nullptr, &num_outputs, &fields));
     std::vector<std::unique_ptr<host::Reader>> readers;
     std::vector<std::unique_ptr<host::Writer>> writers;
     std::vector<const CeedScalar *> inputs;
@@ -100,7 +113,7 @@ int apply(CeedQFunction qf, CeedInt Q, const CeedVector *u, const CeedVector *v)
       inputs.push_back(readers.back()->data());
     }
     for (CeedInt i = 0; i < num_outputs; i++) {
-      writers.push_back(std::make_unique<host::Writer>(v[i], host::Writer::write_only, CEED_MEM_DEVICE));
+      writers.push_back(std::make_unique<host::Writer>(v[i], mode_of(v[i], fields[i], Q), CEED_MEM_DEVICE));
       outputs.push_back(writers.back()->data());
     }
     const int code = function->call(Points(1, Q), inputs, outputs);

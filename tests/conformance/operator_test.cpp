@@ -325,6 +325,21 @@ TEST_P(OperatorTest, CountsItsMemory) {
   }
 }
 
+/// Vectors may be longer than the points; what lies beyond them stays.
+TEST_P(OperatorTest, QFunctionsWriteTheirPoints) {
+  constexpr CeedInt Q = 4, length = 7;
+  QFunction mass;
+  ok(CeedQFunctionCreateInteriorByName(ceed, "MassApply", mass.out()));
+  const Vector u = make_vector(ceed, length, 3), weights = make_vector(ceed, length, 5),
+               v = make_vector(ceed, length, 0);
+  Values want(length, 7);
+  ok(CeedVectorSetArray(v, CEED_MEM_HOST, CEED_COPY_VALUES, want.data()));  // a device does not have them
+  CeedVector in[] = {u, weights}, out[] = {v};
+  ok(CeedQFunctionApply(mass, Q, in, out));
+  for (CeedInt q = 0; q < Q; q++) want[q] = 15;
+  expect_close(values_of(v), want, 0, "output");
+}
+
 /// Once or twice, it acts as one that was not.
 TEST_P(OperatorTest, IsPreparedAheadOfTime) {
   const Box mesh(2, 2, 3);
