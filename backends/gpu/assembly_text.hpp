@@ -32,7 +32,12 @@ class AssemblyText {
   /// Not taken: active fields that go through no basis, or through several; diagonals, unless there is one active input
   /// and one active output with the same restriction.
   bool is_taken() const { return is_taken_; }
-  bool is_contracted() const { return purpose_ != Purpose::qfunction; }
+  /// No assembly at all: the operator is applied.
+  bool applies() const { return purpose_ == Purpose::apply; }
+  /// Whether a field of the QFunction's inputs has values of its own: active ones of an assembly are unit values.
+  bool is_read(const CeedProgramField &field) const { return applies() || field.first_value < 0; }
+  /// Whether matrices are contracted with functions, not just written.
+  bool contracts() const { return !applies() && purpose_ != Purpose::qfunction; }
   /// The spaces of active fields, where their functions are wanted.
   const std::vector<CeedInt> &spaces() const { return spaces_; }
   /// Numbers of a lane's matrix.

@@ -16,11 +16,7 @@ namespace {
 class CellPrinter {
  public:
   CellPrinter(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose)
-      : program_(program),
-        function_(function),
-        applies_(purpose == Purpose::apply),
-        assembly_(program, purpose),
-        spaces_(program.num_spaces) {
+      : program_(program), function_(function), assembly_(program, purpose), spaces_(program.num_spaces) {
     chk(CeedElemRestrictionGetNumComponents(program.points_rstr, &dim_));
     text_.num_threads = block.num_threads;
     most_shared_ = block.shared_bytes;
@@ -32,11 +28,11 @@ class CellPrinter {
   OperatorText print() {
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
-      if (!is_read(field) || !is_evaluated(field)) continue;
+      if (!assembly_.is_read(field) || !is_evaluated(field)) continue;
       Evaluation &e = evaluation_of(evaluations_, field, true);
       if (e.array_of(field) < 0) e.array_of(field) = i;
     }
-    for (CeedInt o = 0; applies_ && o < program_.num_outputs; o++) {
+    for (CeedInt o = 0; assembly_.applies() && o < program_.num_outputs; o++) {
       const CeedProgramField &field = program_.outputs[o];
       if (is_evaluated(field)) evaluation_of(integrations_, field, false).array_of(field) = o;
     }
@@ -73,24 +69,20 @@ class CellPrinter {
       line("  integrate_cells<{}, {}, {}, {}, {}>(job.sinks[{}], first, count, lanes, at{}, {}, {});", dim_, s.P,
            s.num_comp, e.interp >= 0, e.derivative >= 0, e.side, s.functions, flux(e.interp), flux(e.derivative));
     }
-    if (contracts()) {
+    if (assembly_.contracts()) {
       line("  const {} matrices{{shared + columns}};", assembly_.matrices_type());
       const auto functions_of = [&](CeedInt space) { return functions_text(spaces_[space]); };
       for (const std::string &text : assembly_.contraction_lines(functions_of)) line("  {}", text);
     }
     line("}}");
-    text_.text = (applies_ ? begin_text(program_, function_, {"sides.hpp", "cells.hpp"}, text_)
-                           : begin_text(program_, function_, {"sides.hpp", "cells.hpp", "assembly.hpp"}, text_)) +
+    text_.text = begin_text(program_, function_, "cells.hpp", !assembly_.applies(), text_) +
                  (has_shared() ? "  HG_SHARED(shared);\n" : "") + declarations_ + lines_ + "}\n}\n";
     return std::move(text_);
   }
 
  private:
-  /// Active inputs of an assembly are unit values.
-  bool is_read(const CeedProgramField &field) const { return applies_ || field.first_value < 0; }
-  bool contracts() const { return !applies_ && assembly_.is_contracted(); }
   /// Whether anything is done with what the points of a cell have left.
-  bool has_lanes() const { return !integrations_.empty() || contracts(); }
+  bool has_lanes() const { return !integrations_.empty() || assembly_.contracts(); }
   bool has_shared() const { return text_.shared_bytes + text_.bytes_of_cell > 0; }
   /// A space; `functions`: which of the distinct sets of functions it has.
   struct Space {
@@ -159,7 +151,7 @@ class CellPrinter {
         if (o >= 0) add(fmt::format("flux{}", o), program_.outputs[o].size);
       }
     }
-    if (contracts()) {
+    if (assembly_.contracts()) {
       for (const CeedInt space : assembly_.spaces()) keep_functions(space);
       declarations_ += fmt::format("  constexpr int columns = threads * {};\n", of_point);
       of_point += assembly_.matrix_size();
@@ -193,7 +185,7 @@ class CellPrinter {
     constexpr int few = 80, enough_for_few = 96, other = 16;
     const int wanted = 2 * numbers + other <= enough_for_few ? few : 2 * numbers + other;
     text_.num_blocks = 1;
-    if (!applies_) return;
+    if (!assembly_.applies()) return;
     while (registers(text_.num_blocks + 1) >= wanted) text_.num_blocks++;
   }
   /// Of a thread, where a processor holds so many blocks: a quarter of its 65536 are for a quarter of the warps.
@@ -220,7 +212,7 @@ class CellPrinter {
     }
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
-      if (!is_read(field) || !is_first(i)) continue;
+      if (!assembly_.is_read(field) || !is_first(i)) continue;
       line("    CeedScalar in{}[{}];", i, field.size);
       if (field.eval_mode == CEED_EVAL_WEIGHT) line("    in{}[0] = 1;", i);
       if (field.eval_mode == CEED_EVAL_NONE) {
@@ -235,11 +227,12 @@ class CellPrinter {
            array(e.derivative));
     }
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
-      if (is_read(program_.inputs[i]) && !is_first(i)) line("    CeedScalar *const in{} = in{};", i, first_of(i));
+      if (!assembly_.is_read(program_.inputs[i]) || is_first(i)) continue;
+      line("    CeedScalar *const in{} = in{};", i, first_of(i));
     }
-    if (!applies_) {
+    if (!assembly_.applies()) {
       const std::string write =
-          assembly_.is_contracted()
+          assembly_.contracts()
               ? fmt::format("{}{{shared + columns}}.write_column(thread(), i, column);", assembly_.matrices_type())
               : fmt::format("write_column<{}, {}>(column, job.facts.entries, point - starts[0], i);",
                             program_.num_active_in, program_.num_active_out);
@@ -271,7 +264,6 @@ class CellPrinter {
 
   const CeedProgram &program_;
   const FunctionText &function_;
-  bool applies_;
   AssemblyText assembly_;
   CeedInt dim_ = 0, of_cell_ = 0;
   std::size_t most_shared_ = 0;

@@ -30,11 +30,7 @@ struct Shape {
 class ElementPrinter {
  public:
   ElementPrinter(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose)
-      : block_(block),
-        program_(program),
-        function_(function),
-        applies_(purpose == Purpose::apply),
-        assembly_(program, purpose) {
+      : block_(block), program_(program), function_(function), assembly_(program, purpose) {
     for (CeedInt i = 0; i < program.num_spaces; i++) bases_.emplace_back(program.spaces[i].basis);
   }
 
@@ -46,9 +42,9 @@ class ElementPrinter {
     call_ = last_;
     point(fmt::format("const int e = i / {0}, q = i % {0};", program_.num_qpts));
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
-      if (is_read(program_.inputs[i])) take_input(i);
+      if (assembly_.is_read(program_.inputs[i])) take_input(i);
     }
-    if (applies_) {
+    if (assembly_.applies()) {
       for (CeedInt o = 0; o < program_.num_outputs; o++) take_output(o);
     } else {
       take_columns();
@@ -58,7 +54,7 @@ class ElementPrinter {
     for (const std::string &line : point_) phases_.step(call_, "  " + line);
     phases_.step(call_, "}");
     last_ = call_;
-    if (contracts()) contract_columns();
+    if (assembly_.contracts()) contract_columns();
     std::vector<int> free_from(program_.num_sinks, call_ + 1);
     for (const Evaluation &e : integrations_) free_from[e.side] = integrate(e, free_from[e.side]);
     for (CeedInt t = 0; t < program_.num_sinks; t++) {
@@ -72,9 +68,6 @@ class ElementPrinter {
   }
 
  private:
-  /// Active inputs of an assembly are unit values.
-  bool is_read(const CeedProgramField &field) const { return applies_ || field.first_value < 0; }
-  bool contracts() const { return !applies_ && assembly_.is_contracted(); }
   static bool comp_first(const CeedProgramSide &side) {
     const CeedElementMap &map = map_of(side.rstr);
     return map.num_comp > 1 && (map.offsets != nullptr ? map.comp_stride : map.strides[1]) == 1;
@@ -112,7 +105,7 @@ class ElementPrinter {
     sink_shapes_.resize(program_.num_sinks);
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
-      if (!is_read(field) || !is_evaluated(field)) continue;
+      if (!assembly_.is_read(field) || !is_evaluated(field)) continue;
       Evaluation &e = evaluation_of(evaluations_, field, true);
       int &place = e.array_of(field);
       if (place < 0) place = i;
@@ -124,12 +117,12 @@ class ElementPrinter {
                                   phases_.use(sources_[field.side], 0)));
     }
     for (CeedInt s = 0; s < program_.num_sources; s++) {
-      const bool is_read = applies_ || !program_.sources[s].is_active;
+      const bool is_read = assembly_.applies() || !program_.sources[s].is_active;
       if (!is_read || sources_[s] >= 0 || !is_standard(program_.sources[s])) continue;
       const CeedElementMap &map = map_of(program_.sources[s].rstr);
       phases_.step(0, fmt::format("ask_for<{}>(job.sources[{}], first, count);", map.elem_size * map.num_comp, s));
     }
-    for (CeedInt o = 0; applies_ && o < program_.num_outputs; o++) {
+    for (CeedInt o = 0; assembly_.applies() && o < program_.num_outputs; o++) {
       const CeedProgramField &field = program_.outputs[o];
       if (is_evaluated(field)) evaluation_of(integrations_, field, false).array_of(field) = o;
     }
@@ -382,7 +375,7 @@ class ElementPrinter {
     const CeedInt Q = program_.num_qpts;
     std::string write = fmt::format("write_column<{}, {}, {}>(column, job.facts.entries, first + e, q, i);",
                                     program_.num_active_in, program_.num_active_out, Q);
-    if (contracts()) {
+    if (assembly_.contracts()) {
       const auto size = static_cast<std::size_t>(assembly_.matrix_size()) * Q;
       columns_ = phases_.array("columns", size, "columns");
       write = fmt::format("{}{{{}}}.write_column(e * {} + q, i, column);", assembly_.matrices_type(),
@@ -462,9 +455,8 @@ class ElementPrinter {
     text_.num_blocks =
         std::max(1, std::min(static_cast<int>(block_.shared_bytes / std::max<std::size_t>(text_.shared_bytes, 1)),
                              threads_of_processor / text_.num_threads));
-    if (!applies_) text_.num_blocks = 1;
-    text_.text = (applies_ ? begin_text(program_, function_, {"sides.hpp", "elements.hpp"}, text_)
-                           : begin_text(program_, function_, {"sides.hpp", "elements.hpp", "assembly.hpp"}, text_)) +
+    if (!assembly_.applies()) text_.num_blocks = 1;
+    text_.text = begin_text(program_, function_, "elements.hpp", !assembly_.applies(), text_) +
                  "  HG_SHARED(shared);\n" + phases_.declarations() +
                  "  const CeedSize first = block() * elems, left = job.facts.num_elem - first;\n"
                  "  const int count = left < elems ? static_cast<int>(left) : elems;\n" +
@@ -479,7 +471,6 @@ class ElementPrinter {
   const Block &block_;
   const CeedProgram &program_;
   const FunctionText &function_;
-  bool applies_;
   AssemblyText assembly_;
   std::vector<BasisFactors> bases_;
   Phases phases_;

@@ -30,14 +30,17 @@ bool is_alone(const CeedProgram &program, CeedInt sink) {
   return true;
 }
 
-std::string begin_text(const CeedProgram &program, const FunctionText &function,
-                       std::initializer_list<const char *> names, const OperatorText &text) {
+std::string begin_text(const CeedProgram &program, const FunctionText &function, const char *name, bool assembles,
+                       const OperatorText &text) {
   const auto at_least_one = [](std::size_t count) { return std::max<std::size_t>(count, 1); };
   std::string all =
       function.text +
       fmt::format("#line 1 \"operator\"\nnamespace hg::gpu {{\nconstexpr int elems = {}, threads = {};\n}}\n",
                   text.num_elem, text.num_threads);
-  for (const char *name : names) all += fmt::format("#line 1 \"{}\"\n{}", name, gpu::text(name));
+  const auto add = [&](const char *part) { all += fmt::format("#line 1 \"{}\"\n{}", part, gpu::text(part)); };
+  add("sides.hpp");
+  add(name);
+  if (assembles) add("assembly.hpp");
   return all + fmt::format(
                    "#line 1 \"operator\"\nnamespace hg::gpu {{\nusing Job = OperatorJob<{}, {}, {}>;\n"
                    "HG_KERNEL_OF(hg_operator, Job, {}, {}) {{\n",

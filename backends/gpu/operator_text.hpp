@@ -4,7 +4,6 @@
 
 #include <ceed/plugin.h>
 
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -58,9 +57,10 @@ inline bool is_evaluated(const CeedProgramField &field) {
 }
 /// Whether no other sink has the vector of this one.
 bool is_alone(const CeedProgram &program, CeedInt sink);
-/// The text before the kernel's own lines: the QFunction, constants, the texts `names` of text/, and the job's type.
-std::string begin_text(const CeedProgram &program, const FunctionText &function,
-                       std::initializer_list<const char *> names, const OperatorText &text);
+/// The text before the kernel's own lines: the QFunction, constants, the text `name` of text/ with that of the sides,
+/// and of assembly where it `assembles`, and the job's type.
+std::string begin_text(const CeedProgram &program, const FunctionText &function, const char *name, bool assembles,
+                       const OperatorText &text);
 /// Where the QFunction puts its outputs: arrays out0, out1, ...
 std::vector<std::string> output_lines(const CeedProgram &program);
 /// Calls it for one point, from in0, in1, ... to out0, out1, ...

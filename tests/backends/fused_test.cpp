@@ -45,7 +45,7 @@ TEST_P(FusedTest, TakesAssemblies) {
   }
 }
 
-/// Timings of applications and assemblies hide no compilation.
+/// Timings of applications hide no compilation.
 TEST_P(FusedTest, IsCompiledAheadOfTime) {
   const EmptyCache cache;
   ok(CeedOperatorPrepare(op));

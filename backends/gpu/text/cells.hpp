@@ -1,5 +1,5 @@
-// Operators at points of the elements' own, as blocks of threads work on groups of cells. Before this come sides.hpp
-// and
+// Operators at points of the elements' own, as blocks of threads work on groups of cells. Before this come
+//   sides.hpp, and
 //   cells, threads    most cells, and threads, of a block
 // In shared memory are the coefficients of the group's cells; then for each point, a thread for each of them, the basis
 // functions of its coordinates and what its QFunction gives; then each thread sums what the points of a cell give to a
