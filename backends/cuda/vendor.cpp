@@ -1,8 +1,5 @@
 #include "vendor.hpp"
 
-#include <map>
-#include <mutex>
-
 namespace hg::cuda {
 
 namespace {
@@ -29,16 +26,21 @@ std::string error(const gpu::VendorLibrary &driver, int code) {
   return text_of(code, &text) == 0 && text != nullptr ? text : "error " + std::to_string(code);
 }
 
-/// The devices' own contexts, which the CUDA runtime uses, too.
-int make_current(const gpu::VendorLibrary &driver, int device) {
-  const auto retain = reinterpret_cast<int (*)(void **, int)>(driver.symbol("cuDevicePrimaryCtxRetain"));
-  const auto set_current = reinterpret_cast<int (*)(void *)>(driver.symbol("cuCtxSetCurrent"));
-  static std::mutex mutex;
-  static std::map<int, void *> contexts;
-  const std::scoped_lock one_thread(mutex);
-  void *&context = contexts[device];
-  const int code = context == nullptr ? retain(&context, device) : 0;
-  return code != 0 ? code : set_current(context);
+/// That of the current context, or the first one where there is none, as with the CUDA runtime.
+int current(const gpu::VendorLibrary &driver, int *device) {
+  constexpr int invalid_context = 201;
+  const int code = reinterpret_cast<int (*)(int *)>(driver.symbol("cuCtxGetDevice"))(device);
+  if (code == invalid_context) *device = 0;
+  return code == invalid_context ? 0 : code;
+}
+
+/// The device's own context, which the CUDA runtime uses, too.
+int open(const gpu::VendorLibrary &driver, int device, void **context) {
+  return reinterpret_cast<int (*)(void **, int)>(driver.symbol("cuDevicePrimaryCtxRetain"))(context, device);
+}
+
+int make_current(const gpu::VendorLibrary &driver, void *context) {
+  return reinterpret_cast<int (*)(void *)>(driver.symbol("cuCtxSetCurrent"))(context);
 }
 
 int allow_shared(const gpu::VendorLibrary &driver, void *function, std::size_t bytes) {
@@ -65,8 +67,11 @@ const gpu::Vendor vendor{
     .compiler_names = compiler_names,
     .attributes = {.max_threads = 1, .shared_per_block = 97, .warp_size = 10, .num_processors = 16},
     .error = error,
+    .current = current,
+    .open = open,
     .make_current = make_current,
     .allow_shared = allow_shared,
-    .options = options};
+    .options = options,
+    .options_have_architecture = true};
 
 }  // namespace hg::cuda

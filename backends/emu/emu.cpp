@@ -16,15 +16,17 @@ int init(Ceed ceed, const char *options, CeedBackendOps *ops) {
 }
 
 int score(const char **reason) {
-  static std::string why;
-  try {
-    jit::Compiler::find();
-    return 1;
-  } catch (const jit::NotCompiled &error) {
-    why = error.what();
-    *reason = why.c_str();
-    return 0;
-  }
+  static const std::string why = [] {
+    try {
+      jit::Compiler::find();
+      return std::string();
+    } catch (const jit::NotCompiled &error) {
+      return std::string(error.what());
+    }
+  }();
+  if (why.empty()) return 1;
+  *reason = why.c_str();
+  return 0;
 }
 
 constexpr CeedBackend backends[] = {gpu::on_device("/gpu/emu/ref", CEED_MAX_BACKEND_PRIORITY, score, init<false>),

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "../gpu/options.hpp"
 #include "../jit/cache.hpp"
 #include "texts.hpp"
 
@@ -89,9 +90,11 @@ Options parse(const std::string &text) {
       options.warp_size = 32;
     } else if (word == "warp=64") {
       options.warp_size = 64;
+    } else if (word.starts_with(gpu::device_option)) {
+      options.device_id = gpu::parse_device(word);
     } else {
       throw DeviceError("the emulator has no option '" + word +
-                        "'; expected order=forward, order=backward, order=shuffled, warp=32 or warp=64");
+                        "'; expected order=forward, order=backward, order=shuffled, warp=32, warp=64 or device_id=N");
     }
   }
   return options;
@@ -100,6 +103,7 @@ Options parse(const std::string &text) {
 Emulator::Emulator(const Options &options)
     : options_(options),
       properties_{.name = "emulator",
+                  .number = options.device_id,
                   .warp_size = options.warp_size,
                   .max_threads = 1024,
                   .shared_per_block = 64 << 10,
@@ -140,9 +144,10 @@ std::unique_ptr<gpu::Module> Emulator::compile(const std::string &name, const st
   }
 }
 
-std::vector<int> Emulator::order_of(int count) {
-  std::vector<int> order(count);
-  std::iota(order.begin(), order.end(), 0);
+template <typename Number>
+std::vector<Number> Emulator::order_of(Number count) {
+  std::vector<Number> order(count);
+  std::iota(order.begin(), order.end(), Number{0});
   if (options_.order == Order::backward) std::reverse(order.begin(), order.end());
   if (options_.order == Order::shuffled) std::shuffle(order.begin(), order.end(), random_);
   return order;
@@ -172,8 +177,8 @@ void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void 
     run.state.thread = thread;
     function.call(job);
   };
-  for (std::uint64_t i = 0; i < launch.num_blocks; i++) {
-    run.state.block = options_.order == Order::backward ? launch.num_blocks - 1 - i : i;
+  for (const std::uint64_t block : order_of(launch.num_blocks)) {
+    run.state.block = block;
     std::fill(shared_.begin(), shared_.end(),
               SharedWord{.value = std::numeric_limits<double>::quiet_NaN(),
                          .writer = -1,

@@ -17,8 +17,9 @@ enum class Order { forward, backward, shuffled };
 struct Options {
   Order order = Order::forward;  ///< of blocks, and of threads between two barriers
   int warp_size = 32;
+  int device_id = 0;  ///< what it says it is
 };
-/// "order=shuffled,warp=64". Throws gpu::DeviceError, with what was expected.
+/// "order=shuffled,warp=64,device_id=1". Throws gpu::DeviceError, with what was expected.
 Options parse(const std::string &text);
 
 class Emulator : public gpu::Driver {
@@ -36,7 +37,8 @@ class Emulator : public gpu::Driver {
  private:
   void to_device(void *to, const void *from, std::size_t bytes) override { copy(to, from, bytes); }
   void to_host(void *to, const void *from, std::size_t bytes) override { copy(to, from, bytes); }
-  std::vector<int> order_of(int count);
+  template <typename Number>
+  std::vector<Number> order_of(Number count);
 
   Options options_;
   gpu::Properties properties_;

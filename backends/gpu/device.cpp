@@ -12,11 +12,16 @@ Device &Device::of(Ceed ceed) {
   return *device;
 }
 
+Module &Device::library() {
+  const auto one_thread = lock();
+  if (!library_) library_ = driver_->compile("library", library_text());
+  return *library_;
+}
+
 Kernel Device::library_kernel(const char *name) {
   const auto one_thread = lock();
   if (const auto found = kernels_.find(name); found != kernels_.end()) return found->second;
-  if (!library_) library_ = driver_->compile("library", library_text());
-  const Kernel kernel = library_->kernel(name);
+  const Kernel kernel = library().kernel(name);
   kernels_.emplace(name, kernel);
   return kernel;
 }

@@ -99,10 +99,14 @@ class Device {
     driver_->launch(library_kernel(kernel), launch, &job, sizeof job);
   }
 
+  /// Compiles the library, or loads it, where that was not done yet.
+  void prepare() { library(); }
+
   static constexpr int usual_threads = 256;
   int block_threads() const { return block_threads_; }
 
  private:
+  Module &library();
   Kernel library_kernel(const char *name);
 
   std::recursive_mutex mutex_;

@@ -20,6 +20,7 @@ struct DeviceError : std::runtime_error {
 
 struct Properties {
   std::string name;
+  int number;                    ///< among the vendor's devices
   int warp_size;                 ///< threads that run in step
   int max_threads;               ///< of a block
   std::size_t shared_per_block;  ///< bytes

@@ -380,6 +380,8 @@ class ElementPrinter {
       columns_ = phases_.array("columns", size, "columns");
       write = fmt::format("{}{{{}}}.write_column(e * {} + q, i, column);", assembly_.matrices_type(),
                           phases_.use(columns_, call_), Q);
+    } else {
+      lines_ = std::max(lines_, Q);
     }
     for (const std::string &line : assembly_.column_lines(write)) point(line);
   }

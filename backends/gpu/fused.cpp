@@ -118,6 +118,12 @@ void FusedOperator::group(const CeedProgram &program) {
 }
 
 void FusedOperator::prepare(const CeedProgram &program) {
+  const auto one_thread = device_.lock();
+  list_nodes(program);
+  state_.context();
+}
+
+void FusedOperator::list_nodes(const CeedProgram &program) {
   if (program.at_points && program.points_epoch != points_epoch_) group(program);
   const auto list = [](CeedElemRestriction rstr) {
     if (map_of(rstr).offsets != nullptr) offsets_of(rstr);
@@ -154,7 +160,7 @@ void FusedOperator::assemble(const CeedProgram &program, CeedSize offset, CeedVe
 
 void FusedOperator::launch(const CeedProgram &program, const host::ProgramArrays &arrays,
                            const std::vector<Side> &sinks, CeedScalar *entries) {
-  prepare(program);
+  list_nodes(program);
   std::vector<Side> sources;
   for (CeedInt s = 0; s < program.num_sources; s++) {
     sources.push_back(side_of(program.sources[s].rstr, arrays.sources()[s]));

@@ -24,7 +24,7 @@ class FusedOperator {
   /// where that cannot be compiled.
   static std::unique_ptr<FusedOperator> make(Device &device, const CeedProgram &program, Purpose purpose);
 
-  /// Brings to the device what it works with, where that is not there.
+  /// Brings to the device what it works with beside vectors, where that is not there.
   void prepare(const CeedProgram &program);
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// What it was made for, to values[offset] and beyond: matrices of QFunctions are written, all else is added.
@@ -35,6 +35,7 @@ class FusedOperator {
   FusedOperator(Device &device, const CeedProgram &program, const FunctionText &function, OperatorText text,
                 Purpose purpose);
   void group(const CeedProgram &program);
+  void list_nodes(const CeedProgram &program);
   void launch(const CeedProgram &program, const host::ProgramArrays &arrays, const std::vector<Side> &sinks,
               CeedScalar *entries);
 

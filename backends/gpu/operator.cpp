@@ -55,7 +55,24 @@ StagedOperator &staged_of(CeedOperator op, const CeedProgram &program) {
 }
 
 void prepare_staged(CeedOperator op, const CeedProgram &program) {
-  if (function_of(program.qf) != nullptr) staged_of(op, program);
+  PointFunction *function = function_of(program.qf);
+  if (function == nullptr) return;
+  function->prepare();
+  staged_of(op, program);
+}
+
+/// What is the same for both: vectors that an operator has, and kernels of the library.
+void prepare_device(CeedOperator op, const CeedProgram &program) {
+  Device::of(CeedOperatorReturnCeed(op)).prepare();
+  const auto bring = [](CeedVector vec) {
+    bool has_values = false;
+    chk(CeedVectorHasValidArray(vec, &has_values));
+    if (has_values) chk(CeedVectorSyncArray(vec, CEED_MEM_DEVICE));
+  };
+  for (CeedInt s = 0; s < program.num_sources; s++) {
+    if (!program.sources[s].is_active) bring(program.sources[s].vec);
+  }
+  if (program.at_points) bring(program.points);
 }
 
 void apply_staged(CeedOperator op, const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
@@ -65,7 +82,10 @@ void apply_staged(CeedOperator op, const CeedProgram &program, CeedVector in, Ce
 }
 
 int prepare_in_stages(CeedOperator op, const CeedProgram *program) {
-  return wall(CeedOperatorReturnCeed(op), [&] { prepare_staged(op, *program); });
+  return wall(CeedOperatorReturnCeed(op), [&] {
+    prepare_device(op, *program);
+    prepare_staged(op, *program);
+  });
 }
 
 int apply_add_staged(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode) {
@@ -87,6 +107,7 @@ FusedOperator *fused_of(CeedOperator op, const CeedProgram &program, Purpose pur
 
 int prepare_fused(CeedOperator op, const CeedProgram *program) {
   return wall(CeedOperatorReturnCeed(op), [&] {
+    prepare_device(op, *program);
     if (FusedOperator *fused = fused_of(op, *program, Purpose::apply)) {
       fused->prepare(*program);
     } else {

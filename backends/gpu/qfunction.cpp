@@ -49,6 +49,11 @@ PointFunction::PointFunction(Device &device, CeedQFunction qf, const FunctionTex
   kernel_ = module_->kernel("hg_qfunction");
 }
 
+void PointFunction::prepare() {
+  const auto one_thread = device_->lock();
+  state_.context();
+}
+
 int PointFunction::call(const Points &points, const std::vector<const CeedScalar *> &inputs,
                         const std::vector<CeedScalar *> &outputs) {
   const auto one_thread = device_->lock();

@@ -24,6 +24,8 @@ class PointFunction {
   /// Throws jit::NoSource where it came without text, jit::NotCompiled or DeviceError where that cannot be compiled.
   PointFunction(Device &device, CeedQFunction qf);
 
+  /// Brings to the device what it works with beside its fields, where that is not there.
+  void prepare();
   /// Calls it at all points; see QFunctionJob. What it returned, 0 where it returns nothing else.
   int call(const Points &points, const std::vector<const CeedScalar *> &inputs,
            const std::vector<CeedScalar *> &outputs);

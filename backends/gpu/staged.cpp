@@ -25,6 +25,7 @@ void StagedOperator::make(const CeedProgram &program) {
   inputs_.clear();
   outputs_.clear();
   make_points(program);
+  for (CeedInt i = 0; i < program.num_spaces; i++) tables_of(program.spaces[i].basis);  // now, not when it is applied
   for (CeedInt s = 0; s < program.num_sources; s++) sources_.push_back(side(program.sources[s].rstr));
   for (CeedInt t = 0; t < program.num_sinks; t++) sinks_.push_back(side(program.sinks[t].rstr));
   for (CeedInt i = 0; i < program.num_inputs; i++) {

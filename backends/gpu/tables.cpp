@@ -1,10 +1,6 @@
 #include "tables.hpp"
 
-#include <charconv>
-#include <limits>
-#include <sstream>
-#include <string>
-#include <string_view>
+#include <memory>
 
 #include "../host/access.hpp"
 #include "device.hpp"
@@ -32,40 +28,10 @@ int get_transfers(Ceed ceed, CeedTransfers *transfers) {
   return wall(ceed, [&] { *transfers = Device::of(ceed).driver().transfers(); });
 }
 
-/// The number that follows `name`, from `fewest` to `most`.
-int parse_number(const std::string &option, std::string_view name, int fewest, int most) {
-  int number = 0;
-  const char *end = option.data() + option.size();
-  const auto [stop, error] = std::from_chars(option.data() + name.size(), end, number);
-  if (error != std::errc() || stop != end || number < fewest || number > most) {
-    throw DeviceError("option '" + option + "': expected a number from " + std::to_string(fewest) + " to " +
-                      std::to_string(most));
-  }
-  return number;
-}
-
 }  // namespace
 
 const CeedBackendOps &parents_tables() {
   return parents;
-}
-
-Options parse_options(const std::string &text) {
-  constexpr std::string_view device = "device_id=", threads = "threads=";
-  Options options;
-  std::istringstream all(text);
-  for (std::string option; std::getline(all, option, ',');) {
-    if (option.starts_with(device)) {
-      options.device_id = parse_number(option, device, 0, std::numeric_limits<int>::max());
-    } else if (option.starts_with(threads)) {
-      options.threads = parse_number(option, threads, 32, 1024);
-    } else {
-      throw DeviceError("there is no option '" + option +
-                        "'; expected device_id=N, the number of a device, or threads=N, "
-                        "N from 32 to 1024");
-    }
-  }
-  return options;
 }
 
 void init(Ceed ceed, std::shared_ptr<Driver> driver, bool is_fused, const Options &options, CeedBackendOps *ops) {
@@ -74,6 +40,7 @@ void init(Ceed ceed, std::shared_ptr<Driver> driver, bool is_fused, const Option
   ops->preferred_mem_type = CEED_MEM_DEVICE;
   ops->is_deterministic = !is_fused;
   ops->host_memory_only = false;
+  ops->device_id = device->driver().properties().number;
   ops->ceed_destroy = destroy;
   ops->ceed_set_stream = set_stream;
   ops->ceed_get_transfers = get_transfers;

@@ -5,9 +5,9 @@
 #include <ceed/plugin.h>
 
 #include <memory>
-#include <string>
 
-#include "device.hpp"
+#include "driver.hpp"
+#include "options.hpp"
 
 namespace hg::gpu {
 
@@ -16,14 +16,6 @@ void fill_restriction_ops(CeedElemRestrictionOps &ops);
 void fill_basis_ops(CeedBasisOps &ops);
 void fill_qfunction_ops(CeedQFunctionOps &ops);
 void fill_operator_ops(CeedOperatorOps &ops, bool is_fused);
-
-/// What follows the colon of a resource.
-struct Options {
-  int device_id = 0;                    ///< which device, from 0 on
-  int threads = Device::usual_threads;  ///< most threads of a block of a whole operator, from 32 to 1024
-};
-/// "device_id=1,threads=128". Throws DeviceError, with what was expected.
-Options parse_options(const std::string &text);
 
 /// Sets a Ceed up whose work is done in stages, a kernel each, on the device of `driver`: the backends .../ref; or,
 /// with is_fused, with operators that are one kernel where that is possible: the backends .../gen. `ops` are those of

@@ -14,12 +14,17 @@
 namespace hg::gpu {
 
 VendorLibrary::VendorLibrary(std::span<const char *const> files) {
+  std::string why;
   for (const char *file : files) {
     library_ = ::dlopen(file, RTLD_NOW | RTLD_LOCAL);
     file_ = file;
     if (library_ != nullptr) return;
+    const char *error = ::dlerror();
+    const std::string reason = error != nullptr ? error : std::string(file) + " cannot be loaded";
+    // A file that is there, and cannot be loaded, says more than one that is not.
+    if (why.empty() || reason.find("No such file") == std::string::npos) why = reason;
   }
-  throw DeviceError(std::string("the library ") + files.front() + " is not there");
+  throw DeviceError(why);
 }
 
 void *VendorLibrary::symbol(const char *name) const {
@@ -78,6 +83,19 @@ std::string VendorCompiler::compile_now(const std::string &name, const std::stri
 
 namespace {
 
+void check_call(const Vendor &vendor, const VendorLibrary &library, int code, const char *what) {
+  if (code != 0) throw DeviceError(std::string(vendor.name) + ": " + what + ": " + vendor.error(library, code));
+}
+
+/// Number of devices, at least one. Throws DeviceError where there is none.
+int count_devices(const Vendor &vendor, const VendorLibrary &library, const DriverCalls &calls) {
+  int count = 0;
+  check_call(vendor, library, calls.init(0), "it does not start");
+  check_call(vendor, library, calls.count_devices(&count), "devices cannot be counted");
+  if (count == 0) throw DeviceError(std::string(vendor.name) + ": there is no device");
+  return count;
+}
+
 class VendorDriver : public Driver {
  public:
   VendorDriver(const Vendor &vendor, int device);
@@ -94,10 +112,8 @@ class VendorDriver : public Driver {
   friend class VendorModule;
   void to_device(void *to, const void *from, std::size_t bytes) override;
   void to_host(void *to, const void *from, std::size_t bytes) override;
-  void check(int code, const char *what) const {
-    if (code != 0) throw DeviceError(std::string(vendor_.name) + ": " + what + ": " + vendor_.error(library_, code));
-  }
-  void make_current() const { check(vendor_.make_current(library_, device_), "the device cannot be used"); }
+  void check(int code, const char *what) const { check_call(vendor_, library_, code, what); }
+  void make_current() const { check(vendor_.make_current(library_, handle_), "the device cannot be used"); }
 
   const Vendor &vendor_;
   VendorLibrary library_;
@@ -106,19 +122,30 @@ class VendorDriver : public Driver {
   Properties properties_;
   std::vector<std::string> options_;
   int device_;
+  void *handle_ = nullptr;
   void *stream_ = nullptr;
+};
+
+/// Code that the driver refuses.
+struct NotLoaded : DeviceError {
+  using DeviceError::DeviceError;
 };
 
 class VendorModule : public Module {
  public:
+  /// Throws NotLoaded.
   VendorModule(const VendorDriver &driver, std::string name, const std::string &code)
       : driver_(driver), name_(std::move(name)) {
-    driver_.check(driver_.calls_.load(&module_, code.data()), ("'" + name_ + "' cannot be loaded").c_str());
+    const int error = driver_.calls_.load(&module_, code.data());
+    if (error != 0) {
+      throw NotLoaded(std::string(driver_.vendor_.name) + ": '" + name_ +
+                      "' cannot be loaded: " + driver_.vendor_.error(driver_.library_, error));
+    }
   }
   VendorModule(const VendorModule &) = delete;
   VendorModule &operator=(const VendorModule &) = delete;
   ~VendorModule() override {
-    driver_.vendor_.make_current(driver_.library_, driver_.device_);
+    driver_.vendor_.make_current(driver_.library_, driver_.handle_);
     driver_.calls_.unload(module_);
   }
   Kernel kernel(const char *name) override {
@@ -141,14 +168,13 @@ VendorDriver::VendorDriver(const Vendor &vendor, int device)
       calls_(library_.calls<DriverCalls>(vendor.driver_names)),
       compiler_(vendor),
       device_(device) {
-  int count = 0;
-  check(calls_.init(0), "it does not start");
-  check(calls_.count_devices(&count), "devices cannot be counted");
-  if (count == 0) throw DeviceError(std::string(vendor.name) + ": there is no device");
-  if (device >= count) {
-    throw DeviceError(std::string(vendor.name) + ": there is no device_id=" + std::to_string(device) +
+  const int count = count_devices(vendor, library_, calls_);
+  if (device_ == current_device) check(vendor.current(library_, &device_), "no device is the current one");
+  if (device_ >= count) {
+    throw DeviceError(std::string(vendor.name) + ": there is no device_id=" + std::to_string(device_) +
                       "; expected 0 to " + std::to_string(count - 1));
   }
+  check(vendor.open(library_, device_, &handle_), "the device cannot be opened");
   make_current();
   char name[256] = "";
   check(calls_.name(name, sizeof name - 1, device_), "the device has no name");
@@ -158,6 +184,7 @@ VendorDriver::VendorDriver(const Vendor &vendor, int device)
     return value;
   };
   properties_ = {.name = name,
+                 .number = device_,
                  .warp_size = attribute(vendor.attributes.warp_size),
                  .max_threads = attribute(vendor.attributes.max_threads),
                  .shared_per_block = static_cast<std::size_t>(attribute(vendor.attributes.shared_per_block)),
@@ -176,7 +203,7 @@ void *VendorDriver::allocate(std::size_t bytes) {
 }
 
 void VendorDriver::free(void *memory) noexcept {
-  vendor_.make_current(library_, device_);
+  vendor_.make_current(library_, handle_);
   calls_.free(memory);
 }
 
@@ -207,9 +234,17 @@ void VendorDriver::set_stream(void *stream) {
 
 std::unique_ptr<Module> VendorDriver::compile(const std::string &name, const std::string &text) {
   make_current();
-  // The device is a part of the text, by which code is found again: HIP's options do not name its architecture.
+  if (vendor_.options_have_architecture) {
+    return std::make_unique<VendorModule>(*this, name, compiler_.compile(name, text, options_));
+  }
+  // The device's name is a part of the text then, by which code is found again. What another device of this name left
+  // there need not load.
   const std::string for_device = "// " + properties_.name + '\n' + text;
-  return std::make_unique<VendorModule>(*this, name, compiler_.compile(name, for_device, options_));
+  try {
+    return std::make_unique<VendorModule>(*this, name, compiler_.compile(name, for_device, options_));
+  } catch (const NotLoaded &) {
+    return std::make_unique<VendorModule>(*this, name, compiler_.compile_now(name, for_device, options_));
+  }
 }
 
 void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, std::size_t) {
@@ -240,7 +275,9 @@ int score_of(const Vendor &vendor, const char **reason) {
   static std::map<std::string, std::string> reasons;  // they are pointed to
   const std::scoped_lock one_thread(mutex);
   try {
-    make_driver(vendor, 0);
+    const VendorLibrary library(vendor.driver_files);
+    count_devices(vendor, library, library.calls<DriverCalls>(vendor.driver_names));
+    const VendorCompiler compiler(vendor);
     return 1;
   } catch (const DeviceError &error) {
     *reason = (reasons[vendor.name] = error.what()).c_str();

@@ -12,14 +12,16 @@
 #include <vector>
 
 #include "driver.hpp"
+#include "options.hpp"
 
 namespace hg::gpu {
 
 /// A library that is loaded by one of several names, and stays loaded as long as the process.
 class VendorLibrary {
  public:
-  /// Throws DeviceError where none of these files is there, or a symbol is missing.
+  /// Throws DeviceError where none of these files can be loaded.
   explicit VendorLibrary(std::span<const char *const> files);
+  /// Throws DeviceError where it is missing.
   void *symbol(const char *name) const;
   /// A struct of function pointers, by their names in the same order.
   template <typename Calls>
@@ -76,12 +78,16 @@ struct Vendor {
   } attributes;  ///< numbers of a device's properties
   /// What an error of the driver means.
   std::string (*error)(const VendorLibrary &driver, int code);
-  /// Makes a device the one that this thread's calls are for.
-  int (*make_current)(const VendorLibrary &driver, int device);
+  /// The device that this thread's calls are for.
+  int (*current)(const VendorLibrary &driver, int *device);
+  /// What makes a device the one that this thread's calls are for, in *handle; it is there as long as the process.
+  int (*open)(const VendorLibrary &driver, int device, void **handle);
+  int (*make_current)(const VendorLibrary &driver, void *handle);
   /// Lets blocks of a kernel have so much shared memory, more than usual.
   int (*allow_shared)(const VendorLibrary &driver, void *function, std::size_t bytes);
-  /// The compiler's options for a device.
+  /// The compiler's options for a device; whether they name its architecture.
   std::vector<std::string> (*options)(const DriverCalls &calls, int device);
+  bool options_have_architecture;
 };
 
 /// A vendor's compiler, which needs no device.
@@ -92,19 +98,20 @@ class VendorCompiler {
   /// not asked; may be NULL. Throws DeviceError, with its messages.
   std::string compile(const std::string &name, const std::string &text, const std::vector<std::string> &options,
                       std::string *log = nullptr) const;
+  /// The same without the cache.
+  std::string compile_now(const std::string &name, const std::string &text, const std::vector<std::string> &options,
+                          std::string *log = nullptr) const;
 
  private:
-  std::string compile_now(const std::string &name, const std::string &text, const std::vector<std::string> &options,
-                          std::string *log) const;
-
   const Vendor &vendor_;
   CompilerCalls calls_;
   std::string version_;
 };
 
-/// A device of a vendor, from 0 on. Throws DeviceError where there is none.
+/// A device of a vendor, from 0 on; current_device: the one that this thread's calls are for. From then on calls of the
+/// vendor's library are for it, in each thread that uses it. Throws DeviceError where there is none.
 std::shared_ptr<Driver> make_driver(const Vendor &vendor, int device);
-/// For CeedBackend::score: 0 where there is no device 0, and why.
+/// For CeedBackend::score: 0 where there is no device or no compiler, and why. Opens none.
 int score_of(const Vendor &vendor, const char **reason);
 
 }  // namespace hg::gpu

@@ -1,5 +1,7 @@
 #include "vendor.hpp"
 
+#include <cstdint>
+
 namespace hg::hip {
 
 namespace {
@@ -22,7 +24,18 @@ std::string error(const gpu::VendorLibrary &driver, int code) {
   return text != nullptr ? text : "error " + std::to_string(code);
 }
 
-int make_current(const gpu::VendorLibrary &driver, int device) {
+int current(const gpu::VendorLibrary &driver, int *device) {
+  return reinterpret_cast<int (*)(int *)>(driver.symbol("hipGetDevice"))(device);
+}
+
+/// A device is its number.
+int open(const gpu::VendorLibrary &, int device, void **number) {
+  *number = reinterpret_cast<void *>(static_cast<std::intptr_t>(device));
+  return 0;
+}
+
+int make_current(const gpu::VendorLibrary &driver, void *number) {
+  const auto device = static_cast<int>(reinterpret_cast<std::intptr_t>(number));
   return reinterpret_cast<int (*)(int)>(driver.symbol("hipSetDevice"))(device);
 }
 
@@ -41,8 +54,11 @@ const gpu::Vendor vendor{
     .compiler_names = compiler_names,
     .attributes = {.max_threads = 56, .shared_per_block = 74, .warp_size = 87, .num_processors = 63},
     .error = error,
+    .current = current,
+    .open = open,
     .make_current = make_current,
     .allow_shared = [](const gpu::VendorLibrary &, void *, std::size_t) { return 0; },
-    .options = options};
+    .options = options,
+    .options_have_architecture = false};
 
 }  // namespace hg::hip

@@ -80,13 +80,17 @@ void check_basis_field(const CeedOperator_private &op, const char *name, CeedInt
   });
 }
 
-/// Whether two Ceeds may share objects: the same one, or the same backend's.
+/// Two Ceeds may share objects that are of the same backend, and on the same device.
 void require_same_family(const CeedOperator_private &op, const CeedObject_private *object, const char *field) {
   if (object->is_sentinel) return;
   const Ceed other = object->owner();
   require(other == op.ceed.get() || other->resource == op.ceed->resource, CEED_ERROR_INCOMPATIBLE, [&] {
     return text("CeedOperator '%s' of backend %s, field '%s': an object of backend %s", op.shown_name(),
                 op.ceed->resource.c_str(), field, other->resource.c_str());
+  });
+  require(other->ops.device_id == op.ceed->ops.device_id, CEED_ERROR_INCOMPATIBLE, [&] {
+    return text("CeedOperator '%s' of backend %s on device %d, field '%s': an object on device %d", op.shown_name(),
+                op.ceed->resource.c_str(), op.ceed->ops.device_id, field, other->ops.device_id);
   });
 }
 

@@ -77,8 +77,9 @@ bool Program::has_shape_of(const Program &other) const {
 }
 
 CeedInt Program::side(std::vector<CeedProgramSide> &sides, CeedElemRestriction rstr, CeedVector vec) {
+  rstr = first_equal(rstr);
   const auto found = std::find_if(sides.begin(), sides.end(), [&](const CeedProgramSide &other) {
-    return other.vec == vec && equal(*other.rstr, *rstr);
+    return other.vec == vec && other.rstr == rstr;
   });
   if (found != sides.end()) return static_cast<CeedInt>(found - sides.begin());
   sides.push_back({.rstr = rstr,
@@ -88,6 +89,15 @@ CeedInt Program::side(std::vector<CeedProgramSide> &sides, CeedElemRestriction r
                    .is_active = vec == CEED_VECTOR_ACTIVE,
                    .is_points = rstr->is_points()});
   return static_cast<CeedInt>(sides.size()) - 1;
+}
+
+CeedElemRestriction Program::first_equal(CeedElemRestriction rstr) const {
+  for (const auto *sides : {&sources_, &sinks_}) {
+    for (const CeedProgramSide &other : *sides) {
+      if (other.rstr == rstr || equal(*other.rstr, *rstr)) return other.rstr;
+    }
+  }
+  return rstr;
 }
 
 CeedInt Program::space(CeedElemRestriction rstr, CeedBasis basis) {

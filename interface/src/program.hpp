@@ -29,6 +29,8 @@ class Program {
 
  private:
   CeedInt side(std::vector<CeedProgramSide> &sides, CeedElemRestriction rstr, CeedVector vec);
+  /// Equal restrictions are one.
+  CeedElemRestriction first_equal(CeedElemRestriction rstr) const;
   CeedInt space(CeedElemRestriction rstr, CeedBasis basis);
 
   std::vector<CeedProgramSide> sources_, sinks_;

@@ -307,7 +307,7 @@ int CeedVectorSetData(CeedVector vec, void *data) {
   return hg::guard(hg::ceed_of(vec), [&] { hg::deref_vector(vec).data = data; });
 }
 
-// All work is complete when a function returns, so there is nothing to wait for.
+// Work is complete when a function returns, or in the stream of its device: there is nothing to wait for.
 int CeedRequestWait(CeedRequest *req) {
   return hg::guard(nullptr, [&] {
     hg::require(req != nullptr, CEED_ERROR_MINOR, "CeedRequestWait: the address of the request is NULL; expected one");

@@ -48,6 +48,13 @@ void change(CeedVector_private &vec, Call &&call, hg::Where where = hg::Where::c
   vec.state += 2;
 }
 
+/// Whether the backend of one vector knows the other one: it has the same function, and memory on the same device.
+template <typename Function>
+bool both_have(Function CeedVectorOps::*function, const CeedVector_private &to, const CeedVector_private &from) {
+  return to.ops().*function != nullptr && to.ops().*function == from.ops().*function &&
+         to.ceed->ops.device_id == from.ceed->ops.device_id;
+}
+
 }  // namespace
 
 int CeedVectorSetValue(CeedVector vec, CeedScalar value) {
@@ -84,8 +91,7 @@ int CeedVectorCopy(CeedVector vec, CeedVector vec_copy) {
     hg::require_readable(from);
     hg::require_values(from, "CeedVector to copy from");
     if (vec == vec_copy || from.length == 0) return;
-    // The backend of the destination knows only vectors of its own kind.
-    if (to.ops().copy != nullptr && to.ops().copy == from.ops().copy) {
+    if (both_have(&CeedVectorOps::copy, to, from)) {
       return change(to, [&] { return to.ops().copy(vec, vec_copy); });
     }
     const ReadArray source(vec);
@@ -103,7 +109,7 @@ int CeedVectorCopyStrided(CeedVector vec, CeedSize start, CeedSize stop, CeedSiz
     hg::require_values(from, "CeedVector to copy from");
     hg::require_values(to, "CeedVector to copy to");
     if (vec == vec_copy || start == end) return;
-    if (to.ops().copy_strided != nullptr && to.ops().copy_strided == from.ops().copy_strided) {
+    if (both_have(&CeedVectorOps::copy_strided, to, from)) {
       return change(to, [&] { return to.ops().copy_strided(vec, start, end, step, vec_copy); });
     }
     const ReadArray source(vec);
@@ -183,7 +189,7 @@ int CeedVectorAXPY(CeedVector y, CeedScalar alpha, CeedVector x) {
     hg::require_values(from, "CeedVector x");
     hg::require_values(to, "CeedVector y");
     if (to.length == 0) return;
-    if (to.ops().axpy != nullptr && to.ops().axpy == from.ops().axpy) {
+    if (both_have(&CeedVectorOps::axpy, to, from)) {
       return change(to, [&] { return to.ops().axpy(y, alpha, x); });
     }
     const ReadArray x_array(x);
@@ -203,7 +209,7 @@ int CeedVectorAXPBY(CeedVector y, CeedScalar alpha, CeedScalar beta, CeedVector 
     hg::require_values(from, "CeedVector x");
     hg::require_values(to, "CeedVector y");
     if (to.length == 0) return;
-    if (to.ops().axpby != nullptr && to.ops().axpby == from.ops().axpby) {
+    if (both_have(&CeedVectorOps::axpby, to, from)) {
       return change(to, [&] { return to.ops().axpby(y, alpha, beta, x); });
     }
     const ReadArray x_array(x);
@@ -225,8 +231,7 @@ int CeedVectorPointwiseMult(CeedVector w, CeedVector x, CeedVector y) {
     hg::require_values(a, "CeedVector x");
     hg::require_values(b, "CeedVector y");
     if (to.length == 0) return;
-    if (to.ops().pointwise_mult != nullptr && to.ops().pointwise_mult == a.ops().pointwise_mult &&
-        to.ops().pointwise_mult == b.ops().pointwise_mult) {
+    if (both_have(&CeedVectorOps::pointwise_mult, to, a) && both_have(&CeedVectorOps::pointwise_mult, to, b)) {
       return change(to, [&] { return to.ops().pointwise_mult(w, x, y); });
     }
     const auto multiply = [&](CeedScalar *result, const CeedScalar *left, const CeedScalar *right) {

@@ -6,6 +6,7 @@
 
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "support/errors.hpp"
@@ -13,7 +14,8 @@
 
 namespace hg::test {
 
-/// A mass or Poisson operator on two cells, at quadrature points or, where `per_cell` is not 0, at points.
+/// A mass or Poisson operator on two cells, at quadrature points or, where `per_cell` is not 0, at points. Its input
+/// and its output have restrictions of their own, which are equal. Nothing is compiled here.
 class BakeoffOperator {
  public:
   BakeoffOperator(Ceed ceed, bool is_poisson, CeedInt num_comp, CeedInt P, CeedInt Q, CeedInt per_cell) {
@@ -22,8 +24,10 @@ class BakeoffOperator {
     for (std::size_t i = 0; i < places.size(); i++) places[i] = static_cast<CeedInt>(i) * num_comp;
     for (CeedInt e = 0; e <= num_elem; e++) ids[e] = num_elem + 1 + e * points;
     std::iota(ids.begin() + num_elem + 1, ids.end(), 0);
-    ok(CeedElemRestrictionCreate(ceed, num_elem, nodes, num_comp, 1, num_elem * nodes * num_comp, CEED_MEM_HOST,
-                                 CEED_COPY_VALUES, places.data(), nodes_.out()));
+    for (Restriction *restriction : {&nodes_, &nodes_again_}) {
+      ok(CeedElemRestrictionCreate(ceed, num_elem, nodes, num_comp, 1, num_elem * nodes * num_comp, CEED_MEM_HOST,
+                                   CEED_COPY_VALUES, places.data(), restriction->out()));
+    }
     ok(CeedBasisCreateTensorH1Lagrange(ceed, 3, num_comp, P, Q, Q == P ? CEED_GAUSS_LOBATTO : CEED_GAUSS,
                                        basis_.out()));
     const auto at_points = [&](CeedInt size, Restriction &restriction) {
@@ -39,8 +43,10 @@ class BakeoffOperator {
     }
     ok(CeedVectorCreate(ceed, num_elem * points * stored, data_.out()));
     ok(CeedVectorCreate(ceed, num_elem * points * 3, x_.out()));
-    ok(CeedVectorSetValue(data_, 1));
-    ok(CeedVectorSetValue(x_, 0.25));
+    for (const auto &[vec, size, value] : {std::tuple(&data_, stored, 1.), std::tuple(&x_, 3, 0.25)}) {
+      std::vector<CeedScalar> values(num_elem * points * size, value);
+      ok(CeedVectorSetArray(*vec, CEED_MEM_HOST, CEED_COPY_VALUES, values.data()));
+    }
     const std::string name = std::string(is_poisson ? "BPPoissonApply" : "BPMassApply") + (num_comp > 1 ? "3" : "");
     const std::string place = std::string(HG_QFUNCTIONS) + (is_poisson ? "/bps/poisson.h:" : "/bps/mass.h:") + name;
     const CeedQFunctionUser never = [](void *, CeedInt, const CeedScalar *const *, CeedScalar *const *) { return 1; };
@@ -54,14 +60,14 @@ class BakeoffOperator {
                                                                         CEED_QFUNCTION_NONE, op_.out()));
     ok(CeedOperatorSetField(op_, "u", nodes_, basis_, CEED_VECTOR_ACTIVE));
     ok(CeedOperatorSetField(op_, "data", stored_, CEED_BASIS_NONE, data_));
-    ok(CeedOperatorSetField(op_, "v", nodes_, basis_, CEED_VECTOR_ACTIVE));
+    ok(CeedOperatorSetField(op_, "v", nodes_again_, basis_, CEED_VECTOR_ACTIVE));
     if (per_cell > 0) ok(CeedOperatorAtPointsSetPoints(op_, coordinates_, x_));
   }
   operator CeedOperator() const { return op_; }
 
  private:
   static constexpr CeedInt num_elem = 2;
-  Restriction nodes_, stored_, coordinates_;
+  Restriction nodes_, nodes_again_, stored_, coordinates_;
   Basis basis_;
   Vector data_, x_;
   QFunction qf_;

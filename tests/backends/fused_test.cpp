@@ -3,7 +3,11 @@
 #include <ceed/plugin.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "bakeoff_operator.hpp"
 #include "support/errors.hpp"
@@ -45,8 +49,61 @@ TEST_P(FusedTest, TakesAssemblies) {
   }
 }
 
-/// Timings of applications hide no compilation.
-TEST_P(FusedTest, IsCompiledAheadOfTime) {
+/// Nothing goes to the host and back.
+TEST_P(FusedTest, AssemblesQFunctionsOnTheDevice) {
+  ok(CeedOperatorPrepare(op));
+  CeedTransfers before, after;
+  ok(CeedGetTransfers(ceed, &before));
+  Vector assembled;
+  Restriction rstr;
+  ok(CeedOperatorLinearAssembleQFunction(op, assembled.out(), rstr.out(), CEED_REQUEST_IMMEDIATE));
+  ok(CeedGetTransfers(ceed, &after));
+  EXPECT_EQ(after.num_to_host, before.num_to_host);
+  CeedScalar norm = 0;
+  ok(CeedVectorNorm(assembled, CEED_NORM_MAX, &norm));
+  EXPECT_EQ(norm, 1);  // what is stored at the points is 1
+}
+
+/// Objects on one device are of no use on another.
+TEST(Devices, DoNotMix) {
+  const CeedHandle first{open("/gpu/emu/gen")}, second{open("/gpu/emu/gen:device_id=1")};
+  Vector of_first, of_second;
+  ok(CeedVectorCreate(first, 5, of_first.out()));
+  ok(CeedVectorCreate(second, 5, of_second.out()));
+  ok(CeedVectorSetValue(of_first, 2));
+  ok(CeedVectorSetValue(of_second, 1));
+  CeedTransfers before, after;
+  ok(CeedGetTransfers(second, &before));
+  ok(CeedVectorAXPY(of_second, 3, of_first));  // by way of the host
+  ok(CeedGetTransfers(second, &after));
+  EXPECT_GT(after.num_to_host, before.num_to_host);
+  CeedScalar norm = 0;
+  ok(CeedVectorNorm(of_second, CEED_NORM_MAX, &norm));
+  EXPECT_EQ(norm, 7);
+
+  QFunction qf;
+  Operator op;
+  Restriction rstr;
+  const std::array<CeedInt, 3> strides{1, 5, 5};
+  ok(CeedQFunctionCreateIdentity(second, 1, CEED_EVAL_NONE, CEED_EVAL_NONE, qf.out()));
+  ok(CeedOperatorCreate(second, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
+  ok(CeedElemRestrictionCreateStrided(first, 1, 5, 1, 5, strides.data(), rstr.out()));
+  ok(CeedSetErrorHandler(second, CeedErrorStore));
+  EXPECT_EQ(CeedOperatorSetField(op, "input", rstr, CEED_BASIS_NONE, CEED_VECTOR_ACTIVE), CEED_ERROR_INCOMPATIBLE);
+  const char *message = nullptr;
+  ok(CeedGetErrorMessage(second, &message));
+  EXPECT_NE(std::string(message).find("on device 1"), std::string::npos) << message;
+}
+
+/// A backend, and points in a cell.
+class PreparedTest : public testing::TestWithParam<std::tuple<const char *, CeedInt>> {
+ protected:
+  const CeedHandle ceed{open(std::get<0>(GetParam()))};
+  const BakeoffOperator op{ceed, true, 3, 3, 4, std::get<1>(GetParam())};
+};
+
+/// Timings of applications hide no compilation, and no copy but that of their own vectors.
+TEST_P(PreparedTest, HasAllOfItsFirstApplication) {
   const EmptyCache cache;
   ok(CeedOperatorPrepare(op));
   const std::size_t prepared = cache.num_files();
@@ -54,15 +111,27 @@ TEST_P(FusedTest, IsCompiledAheadOfTime) {
   CeedSize length = 0;
   ok(CeedOperatorGetActiveVectorLengths(op, &length, nullptr));
   Vector in, out;
+  std::vector<CeedScalar> ones(length, 1);
   ok(CeedVectorCreate(ceed, length, in.out()));
   ok(CeedVectorCreate(ceed, length, out.out()));
-  ok(CeedVectorSetValue(in, 1));
-  ok(CeedVectorSetValue(out, 0));
-  const std::size_t before = cache.num_files();  // vectors have kernels of the library
+  ok(CeedVectorSetArray(in, CEED_MEM_HOST, CEED_USE_POINTER, ones.data()));
+  CeedTransfers before, after;
+  ok(CeedGetTransfers(ceed, &before));
   ok(CeedOperatorApply(op, in, out, CEED_REQUEST_IMMEDIATE));
-  EXPECT_EQ(cache.num_files(), before);
+  ok(CeedGetTransfers(ceed, &after));
+  EXPECT_EQ(cache.num_files(), prepared);
+  // Stages have the addresses of the QFunction's fields there, too.
+  const CeedSize most = ones.size() * sizeof(CeedScalar) + 3 * sizeof(void *);
+  EXPECT_LE(after.bytes_to_device - before.bytes_to_device, most);
+  EXPECT_EQ(after.num_to_host, before.num_to_host);
 }
 
+INSTANTIATE_TEST_SUITE_P(Backends, PreparedTest,
+                         testing::Combine(testing::Values("/gpu/emu/ref", "/gpu/emu/gen"), testing::Values(0, 27)),
+                         [](const auto &info) {
+                           const std::string tier = std::string(std::get<0>(info.param)).substr(9);
+                           return tier + (std::get<1>(info.param) > 0 ? "Own" : "Quadrature");
+                         });
 INSTANTIATE_TEST_SUITE_P(Points, FusedTest, testing::Values(0, 27),
                          [](const auto &info) { return info.param > 0 ? "Own" : "Quadrature"; });
 

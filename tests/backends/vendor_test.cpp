@@ -15,6 +15,7 @@
 #include "backends/cuda/vendor.hpp"
 #include "backends/gpu/operator_text.hpp"
 #include "backends/gpu/qfunction.hpp"
+#include "backends/gpu/options.hpp"
 #include "backends/gpu/tables.hpp"
 #include "backends/gpu/texts.hpp"
 #include "backends/gpu/vendor.hpp"
@@ -234,7 +235,7 @@ TEST_P(VendorTest, SaysWhatIsWrongWithAText) {
 
 TEST(DeviceOptions, AreRead) {
   const gpu::Options usual = gpu::parse_options(""), both = gpu::parse_options("device_id=1,threads=128");
-  EXPECT_EQ(usual.device_id, 0);
+  EXPECT_EQ(usual.device_id, gpu::current_device);
   EXPECT_EQ(usual.threads, gpu::Device::usual_threads);
   EXPECT_EQ(both.device_id, 1);
   EXPECT_EQ(both.threads, 128);

@@ -22,7 +22,8 @@
 /// - `t_mode`: CEED_TRANSPOSE for the way from points to nodes, or from elements to the L-vector
 /// - `eval_mode`: what of a field is meant: its values, a derivative, the weights
 /// - `request`: CEED_REQUEST_IMMEDIATE or CEED_REQUEST_ORDERED, or NULL; with any, work is complete on return, or on
-///   a device in its stream: whatever reads the results through this interface waits for it
+///   a device given to its stream: arrays on the host and norms are there when they are returned, arrays on the device
+///   for what comes later in that stream
 /// - `stream`: an open file, which is written to
 /// - `num_tabs`: the steps, of two spaces each, by which View indents; 0 or more
 ///
@@ -118,11 +119,14 @@ CEED_EXTERN int CeedRegistryGetList(size_t *n, char ***const resources, CeedInt 
 /// Opens the backend whose name begins with `resource`, in whole components ("/cpu/self" opens "/cpu/self/ref/serial");
 /// of several the one with the lowest priority that this machine can run. What follows a colon
 /// ("/gpu/cuda:device_id=1") is passed on to the backend. "help:" before the name prints the resources to stderr. The
-/// caller destroys *ceed, whose old value is not looked at.
+/// caller destroys *ceed, whose old value is not looked at. Backends on devices take the current device of the calling
+/// thread (cudaSetDevice(), hipSetDevice()) where none is named, and make theirs the current one of whichever thread
+/// uses them.
 /// Error CEED_ERROR_MAJOR: no backend fits; the message lists those there are.
 CEED_EXTERN int CeedInit(const char *resource, Ceed *ceed);
-/// Stream `handle` (CUstream, hipStream_t) on which a device backend works from now on; the caller keeps it alive.
-/// Error CEED_ERROR_UNSUPPORTED: backends that work on the host take none.
+/// Stream `handle` (CUstream, hipStream_t) on which a device backend works from now on. What was given to the one before
+/// is waited for: the caller keeps a stream alive until another one has been set, or the Ceed is destroyed. Error
+/// CEED_ERROR_UNSUPPORTED: backends that work on the host take none.
 CEED_EXTERN int CeedSetStream(Ceed ceed, void *handle);
 /// Makes *ceed_copy another reference; what it held is dropped, so it is a live handle or NULL.
 CEED_EXTERN int CeedReferenceCopy(Ceed ceed, Ceed *ceed_copy);

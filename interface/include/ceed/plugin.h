@@ -236,6 +236,7 @@ typedef struct {
   CeedMemType preferred_mem_type;  ///< where it works
   bool is_deterministic;           ///< the same operator applied twice gives the same bits
   bool host_memory_only;           ///< CEED_MEM_DEVICE is refused before it reaches the tables
+  int device_id;                   ///< of several devices the one in whose memory objects are; 0: there is one
   int (*ceed_destroy)(Ceed ceed);  ///< optional: frees CeedGetData()
   int (*ceed_set_stream)(Ceed ceed, void *handle);                 ///< optional
   int (*ceed_get_transfers)(Ceed ceed, CeedTransfers *transfers);  ///< optional: there are none

@@ -1,0 +1,160 @@
+// What the vendors' driver asks of their libraries, here of a fake: it runs no kernel.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "backends/cuda/vendor.hpp"
+#include "backends/gpu/vendor.hpp"
+#include "fake_cuda.hpp"
+#include "support/program.hpp"
+
+namespace {
+
+using namespace hg;
+
+constexpr const char *fake_files[] = {HG_FAKE_CUDA};
+constexpr const char *missing_files[] = {"/nowhere/libcuda.so.1", "/nowhere/libcuda.so"};
+
+class DriverTest : public testing::Test {
+ protected:
+  DriverTest() {
+    fake_cuda = {};
+    vendor.driver_files = vendor.compiler_files = fake_files;
+  }
+  std::string error_of(int device) {
+    try {
+      gpu::make_driver(vendor, device);
+      return "";
+    } catch (const gpu::DeviceError &error) {
+      return error.what();
+    }
+  }
+
+  gpu::Vendor vendor = cuda::vendor;
+};
+
+TEST_F(DriverTest, TakesTheDeviceThatIsCurrent) {
+  fake_cuda.current = 1;
+  const auto driver = gpu::make_driver(vendor, gpu::current_device);
+  EXPECT_EQ(driver->properties().number, 1);
+  EXPECT_EQ(driver->properties().name, "fake 1");
+}
+
+TEST_F(DriverTest, TakesTheFirstDeviceWhereNoneIsCurrent) {
+  const auto driver = gpu::make_driver(vendor, gpu::current_device);
+  EXPECT_EQ(driver->properties().number, 0);
+}
+
+TEST_F(DriverTest, TakesTheDeviceThatIsNamed) {
+  fake_cuda.current = 1;
+  EXPECT_EQ(gpu::make_driver(vendor, 0)->properties().number, 0);
+}
+
+TEST_F(DriverTest, RefusesADeviceThatIsNotThere) {
+  const std::string error = error_of(2);
+  EXPECT_NE(error.find("device_id=2"), std::string::npos) << error;
+  EXPECT_NE(error.find("expected 0 to 1"), std::string::npos) << error;
+}
+
+TEST_F(DriverTest, IsScoredWithoutAContext) {
+  const char *reason = nullptr;
+  EXPECT_EQ(gpu::score_of(vendor, &reason), 1) << reason;
+  EXPECT_EQ(fake_cuda.num_retained, 0);
+}
+
+TEST_F(DriverTest, ScoresNothingWithoutALibrary) {
+  const char *reason = "";
+  vendor.driver_files = missing_files;
+  EXPECT_EQ(gpu::score_of(vendor, &reason), 0);
+  EXPECT_NE(std::string(reason).find("/nowhere/libcuda.so.1"), std::string::npos) << reason;
+  vendor.driver_files = fake_files;
+  vendor.compiler_files = missing_files;
+  EXPECT_EQ(gpu::score_of(vendor, &reason), 0);
+}
+
+TEST_F(DriverTest, MakesItsDeviceCurrentForEachCall) {
+  const auto first = gpu::make_driver(vendor, 0), second = gpu::make_driver(vendor, 1);
+  void *on_first = first->allocate(8);
+  EXPECT_EQ(fake_cuda.current, 0);
+  void *on_second = second->allocate(8);
+  EXPECT_EQ(fake_cuda.current, 1);
+  first->free(on_first);
+  EXPECT_EQ(fake_cuda.current, 0);
+  second->free(on_second);
+  EXPECT_EQ(fake_cuda.current, 1);
+  const auto module = first->compile("nothing", "");
+  EXPECT_EQ(fake_cuda.current, 0);
+}
+
+TEST_F(DriverTest, SaysThatMemoryIsShort) {
+  const auto driver = gpu::make_driver(vendor, 0);
+  fake_cuda.is_full = true;
+  EXPECT_THROW(driver->allocate(8), std::bad_alloc);
+}
+
+TEST_F(DriverTest, CountsWhatIsCopied) {
+  const auto driver = gpu::make_driver(vendor, 0);
+  std::array<double, 3> from{1, 2, 3}, to{};
+  void *memory = driver->allocate(sizeof from);
+  driver->copy_to_device(memory, from.data(), sizeof from);
+  driver->copy_to_host(to.data(), memory, sizeof to);
+  driver->copy_to_host(to.data(), memory, 0);
+  driver->free(memory);
+  EXPECT_EQ(to, from);
+  const CeedTransfers transfers = driver->transfers();
+  EXPECT_EQ(transfers.num_to_device, 1);
+  EXPECT_EQ(transfers.bytes_to_device, 24);
+  EXPECT_EQ(transfers.num_to_host, 1);
+  EXPECT_EQ(transfers.bytes_to_host, 24);
+}
+
+TEST_F(DriverTest, WaitsForTheStreamThatItLeaves) {
+  const auto driver = gpu::make_driver(vendor, 0);
+  int one = 0, other = 0;
+  driver->set_stream(&one);
+  fake_cuda.waited_for.clear();
+  driver->set_stream(&one);
+  EXPECT_TRUE(fake_cuda.waited_for.empty());
+  driver->set_stream(&other);
+  EXPECT_EQ(fake_cuda.waited_for, std::vector<void *>{&one});
+}
+
+TEST_F(DriverTest, RefusesMoreBlocksThanAGridHas) {
+  const auto driver = gpu::make_driver(vendor, 0);
+  const auto module = driver->compile("nothing", "");
+  const int job = 0;
+  const std::uint64_t most = 2147483647;
+  driver->launch(module->kernel("f"), {.num_blocks = most, .num_threads = 32}, &job, sizeof job);
+  EXPECT_THROW(driver->launch(module->kernel("f"), {.num_blocks = most + 1, .num_threads = 32}, &job, sizeof job),
+               gpu::DeviceError);
+}
+
+TEST_F(DriverTest, FindsItsCodeAgain) {
+  const test::EmptyCache cache;
+  for (int device : {0, 1}) gpu::make_driver(vendor, device)->compile("a text", "// some text");
+  EXPECT_EQ(fake_cuda.num_compiled, 1);  // of one architecture
+}
+
+/// What is in the cache for a device of the same name need not be of its architecture, where options do not name it.
+TEST_F(DriverTest, CompilesAgainWhatDoesNotLoad) {
+  const test::EmptyCache cache;
+  vendor.options_have_architecture = false;
+  const auto driver = gpu::make_driver(vendor, 0);
+  driver->compile("a text", "// some text");
+  EXPECT_EQ(fake_cuda.num_compiled, 1);
+  fake_cuda.refused_loads = 1;
+  driver->compile("a text", "// some text");
+  EXPECT_EQ(fake_cuda.num_compiled, 2);
+  fake_cuda.refused_loads = 2;
+  try {
+    driver->compile("a text", "// some text");
+    FAIL() << "it was loaded";
+  } catch (const gpu::DeviceError &error) {
+    EXPECT_NE(std::string(error.what()).find("'a text' cannot be loaded"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace

@@ -1,0 +1,162 @@
+// The calls of CUDA's driver and compiler that the backends make, by their names and arguments. Built as a library that
+// is loaded instead.
+#include "fake_cuda.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+FakeCuda fake_cuda;
+
+namespace {
+
+constexpr int out_of_memory = 2, invalid_value = 1, invalid_context = 201, no_binary = 209;
+constexpr int num_devices = 2;
+constexpr char compiled[] = "code";
+
+int copy_now(void *to, const void *from, std::size_t bytes) {
+  std::memcpy(to, from, bytes);
+  return 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+int cuInit(unsigned) {
+  return 0;
+}
+int cuDeviceGetCount(int *count) {
+  *count = num_devices;
+  return 0;
+}
+int cuDeviceGetName(char *name, int length, int device) {
+  std::snprintf(name, static_cast<std::size_t>(length), "fake %d", device);
+  return 0;
+}
+int cuDeviceGetAttribute(int *value, int attribute, int) {
+  constexpr int max_threads = 1, warp_size = 10, num_processors = 16, major = 75, minor = 76, shared_per_block = 97;
+  switch (attribute) {
+    case max_threads:
+      *value = 1024;
+      return 0;
+    case warp_size:
+      *value = 32;
+      return 0;
+    case num_processors:
+      *value = 4;
+      return 0;
+    case major:
+      *value = 9;
+      return 0;
+    case minor:
+      *value = 0;
+      return 0;
+    case shared_per_block:
+      *value = 64 << 10;
+      return 0;
+    default:
+      return invalid_value;
+  }
+}
+int cuCtxGetDevice(int *device) {
+  if (fake_cuda.current == FakeCuda::none) return invalid_context;
+  *device = fake_cuda.current;
+  return 0;
+}
+int cuDevicePrimaryCtxRetain(void **context, int device) {
+  fake_cuda.num_retained++;
+  *context = reinterpret_cast<void *>(static_cast<std::intptr_t>(device) + 1);
+  return 0;
+}
+int cuCtxSetCurrent(void *context) {
+  fake_cuda.current = static_cast<int>(reinterpret_cast<std::intptr_t>(context)) - 1;
+  return 0;
+}
+int cuMemAlloc_v2(void **memory, std::size_t bytes) {
+  if (fake_cuda.is_full) return out_of_memory;
+  *memory = std::malloc(bytes);
+  return 0;
+}
+int cuMemFree_v2(void *memory) {
+  std::free(memory);
+  return 0;
+}
+int cuMemcpyHtoDAsync_v2(void *to, const void *from, std::size_t bytes, void *) {
+  return copy_now(to, from, bytes);
+}
+int cuMemcpyDtoHAsync_v2(void *to, const void *from, std::size_t bytes, void *) {
+  return copy_now(to, from, bytes);
+}
+int cuMemcpyDtoDAsync_v2(void *to, const void *from, std::size_t bytes, void *) {
+  return copy_now(to, from, bytes);
+}
+int cuStreamSynchronize(void *stream) {
+  fake_cuda.waited_for.push_back(stream);
+  return 0;
+}
+int cuModuleLoadData(void **module, const void *code) {
+  if (fake_cuda.refused_loads > 0) {
+    fake_cuda.refused_loads--;
+    return no_binary;
+  }
+  *module = std::strcmp(static_cast<const char *>(code), compiled) == 0 ? &fake_cuda : nullptr;
+  return *module != nullptr ? 0 : invalid_value;
+}
+int cuModuleUnload(void *) {
+  return 0;
+}
+int cuModuleGetFunction(void **function, void *module, const char *) {
+  *function = module;
+  return 0;
+}
+int cuLaunchKernel(void *, unsigned, unsigned, unsigned, unsigned, unsigned, unsigned, unsigned, void *, void **,
+                   void **) {
+  return 0;
+}
+int cuFuncSetAttribute(void *, int, int) {
+  return 0;
+}
+int cuGetErrorString(int, const char **text) {
+  *text = "an error of the fake";
+  return 0;
+}
+
+int nvrtcVersion(int *major, int *minor) {
+  *major = 13;
+  *minor = 0;
+  return 0;
+}
+int nvrtcCreateProgram(void **program, const char *, const char *, int, const char *const *, const char *const *) {
+  *program = &fake_cuda;
+  return 0;
+}
+int nvrtcCompileProgram(void *, int, const char *const *) {
+  fake_cuda.num_compiled++;
+  return 0;
+}
+int nvrtcGetProgramLogSize(void *, std::size_t *bytes) {
+  *bytes = 1;
+  return 0;
+}
+int nvrtcGetProgramLog(void *, char *log) {
+  *log = '\0';
+  return 0;
+}
+int nvrtcGetCUBINSize(void *, std::size_t *bytes) {
+  *bytes = sizeof compiled;
+  return 0;
+}
+int nvrtcGetCUBIN(void *, char *code) {
+  return copy_now(code, compiled, sizeof compiled);
+}
+int nvrtcDestroyProgram(void **program) {
+  *program = nullptr;
+  return 0;
+}
+const char *nvrtcGetErrorString(int) {
+  return "an error of the fake";
+}
+
+}  // extern "C"
