@@ -18,13 +18,14 @@ class InactiveRows {
   void set(std::vector<PetscInt> rows, Vec like);
   const std::vector<PetscInt> &rows() const { return rows_; }
 
-  /// to[row] = from[row] for each of them; the other entries stay as they are, these must be finite.
+  /// to[row] = from[row] for each of them; the other entries stay as they are, these must be finite. Collective.
   void copy(Vec from, Vec to) const;
-  /// to[row] = 1
+  /// to[row] = 1; collective.
   void set_to_one(Vec to) const;
 
  private:
   std::vector<PetscInt> rows_;
+  bool has_any_ = false;                ///< on some rank
   VecHandle inactive_, active_, work_;  ///< 1 there and 0 elsewhere, and the other way round
 };
 

@@ -249,6 +249,7 @@ SolveResult StaticSolver::solve(const Step &step, Vec u) {
     petsc_check(SNESGetKSP(snes_, &ksp));
     petsc_check(KSPGetConvergedReason(ksp, &linear));
     result.reason += std::string(", the linear solver ended with ") + KSPConvergedReasons[linear];
+    if (linear == KSP_DIVERGED_INDEFINITE_MAT) result.reason += " (-ksp_type minres solves with indefinite Jacobians)";
   }
   if (reason == SNES_DIVERGED_FUNCTION_DOMAIN || reason == SNES_DIVERGED_FNORM_NAN) {
     result.inverted = true;
