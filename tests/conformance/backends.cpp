@@ -1,5 +1,6 @@
 #include "backends.hpp"
 
+#include <ceed/plugin.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +18,24 @@ std::vector<std::string> chosen;
 bool is_left_out(const std::string &resource) {
   const char *beginning = std::getenv("HG_TEST_WITHOUT");
   return beginning != nullptr && *beginning != '\0' && resource.rfind(beginning, 0) == 0;
+}
+
+/// Why this machine cannot run a backend, where it says so: another one is opened instead.
+std::string why_not(const std::string &resource) {
+  std::size_t count = 0;
+  CeedPluginInfo *plugins = nullptr;
+  std::string why;
+  if (CeedPluginGetList(&count, &plugins)) return why;
+  for (std::size_t i = 0; i < count; i++) {
+    for (std::size_t b = 0; plugins[i].plugin != nullptr && b < plugins[i].plugin->num_backends; b++) {
+      const CeedBackend &backend = plugins[i].plugin->backends[b];
+      const char *reason = "it does not say why";
+      const bool is_this = resource.substr(0, resource.find(':')) == backend.resource && backend.score != nullptr;
+      if (is_this && backend.score(&reason) == 0) why = std::string(", for it cannot run here: ") + reason;
+    }
+  }
+  std::free(plugins);
+  return why;
 }
 
 /// What opening a resource printed, and whether it worked; in a process of its own.
@@ -41,7 +60,7 @@ Backend probe(const std::string &resource) {
     const char *full_name = nullptr;
     if (CeedGetResource(ceed, &full_name)) ::_exit(1);
     if (full_name != resource.substr(0, resource.find(':'))) {  // options follow a colon
-      std::printf("another name of %s", full_name);
+      std::printf("another name of %s%s", full_name, why_not(resource).c_str());
       std::fflush(stdout);
       ::_exit(2);
     }
