@@ -19,6 +19,7 @@ namespace {
 struct Kept {
   std::unique_ptr<StagedOperator> staged;
   std::map<Purpose, std::unique_ptr<FusedOperator>> fused;  ///< that were tried; NULL: it is not taken
+  bool core_contracts = false;                              ///< an assembly was left to it, which begins now
 };
 
 /// NULL where it was not used yet.
@@ -126,11 +127,13 @@ int apply_add_fused(CeedOperator op, const CeedProgram *program, CeedVector in, 
   });
 }
 
-/// All elements; some of them, which the core asks for where it contracts itself, are the reference's.
+/// All elements. Where the core contracts them itself, on the host and some elements at a time, they are the
+/// reference's.
 int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedInt first_elem, CeedInt num_elem,
                               CeedVector values) {
   return wall(CeedOperatorReturnCeed(op), [&] {
-    const bool is_whole = first_elem == 0 && num_elem == program->num_elem;
+    const bool is_contracted = std::exchange(own_kept_of(op).core_contracts, false);
+    const bool is_whole = first_elem == 0 && num_elem == program->num_elem && !is_contracted;
     FusedOperator *fused = is_whole ? fused_of(op, *program, Purpose::qfunction) : nullptr;
     if (fused != nullptr) return fused->assemble(*program, 0, values);
     chk(parents_tables().op.linear_assemble_qfunction(op, program, first_elem, num_elem, values));
@@ -155,6 +158,7 @@ int linear_assemble(CeedOperator op, const CeedProgram *program, CeedAssembleKin
     FusedOperator *fused = fused_of(op, *program, purpose_of(kind));
     if (fused != nullptr) fused->assemble(*program, offset, values);
     *is_done = fused != nullptr;
+    own_kept_of(op).core_contracts = fused == nullptr;
   });
 }
 

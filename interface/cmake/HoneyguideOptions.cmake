@@ -45,7 +45,9 @@ target_compile_options(hg_build_flags INTERFACE -Wall -Wextra $<$<BOOL:${HONEYGU
 if(HONEYGUIDE_SANITIZE)
   target_compile_options(hg_build_flags INTERFACE -fsanitize=${HONEYGUIDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(hg_build_flags INTERFACE -fsanitize=${HONEYGUIDE_SANITIZE})
-  target_sources(hg_build_flags INTERFACE $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${PROJECT_SOURCE_DIR}/interface/cmake/sanitizer_defaults.c>)
+  add_library(hg_sanitizer_defaults OBJECT "${PROJECT_SOURCE_DIR}/interface/cmake/sanitizer_defaults.c")
+  target_sources(hg_build_flags INTERFACE
+    $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:$<TARGET_OBJECTS:hg_sanitizer_defaults>>)
 endif()
 if(HONEYGUIDE_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang" OR NOT CMAKE_C_COMPILER_ID MATCHES "Clang")
