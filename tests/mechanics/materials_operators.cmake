@@ -2,6 +2,7 @@
 hg_mechanics_test(materials_elasticity_test)
 hg_mechanics_test(materials_qfunctions_test)
 target_sources(materials_qfunctions_test PRIVATE qfunctions_as_c.c)
+set_source_files_properties(qfunctions_as_c.c PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # those are of C++
 hg_mechanics_test(operators_solid_test RANKS 1 2 3)
 hg_mechanics_test(operators_projection_test RANKS 1 2 3)
 hg_mechanics_test(verification_patch_test RANKS 1 2 3)
