@@ -121,7 +121,6 @@ class VendorDriver : public Driver {
   VendorCompiler compiler_;
   Properties properties_;
   std::vector<std::string> options_;
-  int device_;
   void *handle_ = nullptr;
   void *stream_ = nullptr;
 };
@@ -166,30 +165,29 @@ VendorDriver::VendorDriver(const Vendor &vendor, int device)
     : vendor_(vendor),
       library_(vendor.driver_files),
       calls_(library_.calls<DriverCalls>(vendor.driver_names)),
-      compiler_(vendor),
-      device_(device) {
+      compiler_(vendor) {
   const int count = count_devices(vendor, library_, calls_);
-  if (device_ == current_device) check(vendor.current(library_, &device_), "no device is the current one");
-  if (device_ >= count) {
-    throw DeviceError(std::string(vendor.name) + ": there is no device_id=" + std::to_string(device_) +
+  if (device == current_device) check(vendor.current(library_, &device), "no device is the current one");
+  if (device >= count) {
+    throw DeviceError(std::string(vendor.name) + ": there is no device_id=" + std::to_string(device) +
                       "; expected 0 to " + std::to_string(count - 1));
   }
-  check(vendor.open(library_, device_, &handle_), "the device cannot be opened");
+  check(vendor.open(library_, device, &handle_), "the device cannot be opened");
   make_current();
   char name[256] = "";
-  check(calls_.name(name, sizeof name - 1, device_), "the device has no name");
+  check(calls_.name(name, sizeof name - 1, device), "the device has no name");
   const auto attribute = [&](int number) {
     int value = 0;
-    check(calls_.attribute(&value, number, device_), "the device does not say what it is");
+    check(calls_.attribute(&value, number, device), "the device does not say what it is");
     return value;
   };
   properties_ = {.name = name,
-                 .number = device_,
+                 .number = device,
                  .warp_size = attribute(vendor.attributes.warp_size),
                  .max_threads = attribute(vendor.attributes.max_threads),
                  .shared_per_block = static_cast<std::size_t>(attribute(vendor.attributes.shared_per_block)),
                  .num_processors = attribute(vendor.attributes.num_processors)};
-  options_ = vendor.options(calls_, device_);
+  options_ = vendor.options(calls_, device);
 }
 
 void *VendorDriver::allocate(std::size_t bytes) {
