@@ -12,7 +12,10 @@ namespace {
 
 template <bool is_fused>
 int init(Ceed ceed, const char *options, CeedBackendOps *ops) {
-  return host::wall(ceed, [&] { gpu::init(ceed, std::make_shared<Emulator>(parse(options)), is_fused, {}, ops); });
+  return host::wall(ceed, [&] {
+    const Options parsed = parse(options);
+    gpu::init(ceed, std::make_shared<Emulator>(parsed), is_fused, parsed.device, ops);
+  });
 }
 
 int score(const char **reason) {

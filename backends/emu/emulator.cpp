@@ -11,7 +11,6 @@
 #include <numeric>
 #include <sstream>
 
-#include "../gpu/options.hpp"
 #include "../jit/cache.hpp"
 #include "texts.hpp"
 
@@ -27,11 +26,21 @@ struct Function {
   std::string name;
 };
 
+/// What a thread gives to another one of its warp.
+struct Offer {
+  std::vector<double> values;
+  unsigned phase = 0;  ///< of its warp
+};
+
 /// What is running, for the functions that a kernel calls.
 struct Running {
   Emulated state;
   Fibers *fibers;  ///< NULL: there are none
   const Function *function;
+  std::vector<gpu::Phase> phases;  ///< of each warp
+  std::vector<Offer> offers[2];    ///< of each thread, in this exchange and in the one before it
+
+  gpu::Phase &phase() { return phases[state.thread / state.warp_size]; }
 };
 thread_local Running *running = nullptr;
 
@@ -59,19 +68,51 @@ class Library : public gpu::Module {
   std::list<Function> functions_;  // they are pointed to
 };
 
-[[noreturn]] void fail(const Emulated *state, const char *what, std::ptrdiff_t word) {
-  throw DeviceError("thread " + std::to_string(state->thread) + " of block " + std::to_string(state->block) +
-                    " of the kernel '" + running->function->name + "' " + what + ": word " + std::to_string(word) +
-                    " of " + std::to_string(state->num_shared));
+std::string name_of(const Emulated *state) {
+  return "thread " + std::to_string(state->thread) + " of block " + std::to_string(state->block) + " of the kernel '" +
+         running->function->name + "'";
 }
 
-void wait(Emulated *state) {
+[[noreturn]] void fail(const Emulated *state, const char *what, std::ptrdiff_t word) {
+  throw DeviceError(name_of(state) + " " + what + ": word " + std::to_string(word) + " of " +
+                    std::to_string(state->num_shared));
+}
+
+/// Others run in between.
+void wait_as(Emulated *state, void (Fibers::*wait)()) {
   if (running->fibers == nullptr) {
     throw DeviceError("the kernel '" + running->function->name + "' has a barrier, and was said to have none");
   }
   const int own = state->thread;
-  running->fibers->wait();
+  (running->fibers->*wait)();
   state->thread = own;
+}
+void wait(Emulated *state) {
+  wait_as(state, &Fibers::wait);
+}
+void wait_for_warp(Emulated *state) {
+  wait_as(state, &Fibers::wait_for_team);
+}
+
+/// No thread is two exchanges ahead of another one of its warp: offers alternate between two places.
+void exchange(Emulated *state, double *values, int count, int distance) {
+  const int own = state->thread, other = own ^ distance;
+  if (other >= state->num_threads || other / state->warp_size != own / state->warp_size) {
+    throw DeviceError(name_of(state) + " exchanges values with thread " + std::to_string(other) +
+                      ", which is not of its warp");
+  }
+  const unsigned phase = running->phase().of_warp + 1;
+  std::vector<Offer> &offers = running->offers[phase % 2];
+  offers[own].values.assign(values, values + count);
+  offers[own].phase = phase;
+  wait_for_warp(state);
+  const Offer &offer = offers[other];
+  if (offer.phase != phase || offer.values.size() != static_cast<std::size_t>(count)) {
+    throw DeviceError(name_of(state) + " exchanges " + std::to_string(count) + " values with thread " +
+                      std::to_string(other) + ", which exchanges " +
+                      std::to_string(offer.phase == phase ? offer.values.size() : 0));
+  }
+  std::copy(offer.values.begin(), offer.values.end(), values);
 }
 
 }  // namespace
@@ -90,11 +131,10 @@ Options parse(const std::string &text) {
       options.warp_size = 32;
     } else if (word == "warp=64") {
       options.warp_size = 64;
-    } else if (word.starts_with(gpu::device_option)) {
-      options.device_id = gpu::parse_device(word);
-    } else {
+    } else if (!gpu::parse_option(word, options.device)) {
       throw DeviceError("the emulator has no option '" + word +
-                        "'; expected order=forward, order=backward, order=shuffled, warp=32, warp=64 or device_id=N");
+                        "'; expected order=forward, order=backward, order=shuffled, warp=32, warp=64, " +
+                        gpu::expected_options);
     }
   }
   return options;
@@ -103,7 +143,7 @@ Options parse(const std::string &text) {
 Emulator::Emulator(const Options &options)
     : options_(options),
       properties_{.name = "emulator",
-                  .number = options.device_id,
+                  .number = std::max(options.device.device_id, 0),
                   .warp_size = options.warp_size,
                   .max_threads = 1024,
                   .shared_per_block = 64 << 10,
@@ -161,43 +201,56 @@ void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void 
                       " threads and " + std::to_string(launch.shared_bytes) + " bytes of shared memory in a block");
   }
   shared_.resize(launch.shared_bytes / sizeof(double));
+  const int warp_size = properties_.warp_size, num_warps = (launch.num_threads + warp_size - 1) / warp_size;
   Running run{.state = {.thread = 0,
                         .num_threads = launch.num_threads,
+                        .warp_size = warp_size,
                         .block = 0,
                         .num_blocks = launch.num_blocks,
                         .shared = shared_.data(),
                         .num_shared = static_cast<std::ptrdiff_t>(shared_.size()),
-                        .phase = 0,
+                        .phases = nullptr,
                         .wait = wait,
+                        .wait_for_warp = wait_for_warp,
+                        .exchange = exchange,
                         .fail = fail},
               .fibers = launch.has_barriers ? &fibers_ : nullptr,
-              .function = &function};
+              .function = &function,
+              .phases = std::vector<gpu::Phase>(num_warps),
+              .offers = {}};
+  run.state.phases = run.phases.data();
+  for (auto &offers : run.offers) offers.resize(launch.num_threads);
   running = &run;
   const std::function<void(int)> body = [&](int thread) {
     run.state.thread = thread;
     function.call(job);
   };
+  const Fibers::Referee referee{.order = [&] { return order_of(launch.num_threads); },
+                                .team_met = [&](int warp) { run.phases[warp].of_warp++; },
+                                .all_met =
+                                    [&] {
+                                      for (gpu::Phase &phase : run.phases) {
+                                        phase.of_block++;
+                                        phase.of_warp++;
+                                      }
+                                    }};
   for (const std::uint64_t block : order_of(launch.num_blocks)) {
     run.state.block = block;
     std::fill(shared_.begin(), shared_.end(),
               SharedWord{.value = std::numeric_limits<double>::quiet_NaN(),
                          .writer = -1,
                          .reader = -1,
-                         .write_phase = 0,
-                         .read_phase = 0});
-    run.state.phase = 0;
+                         .reading_warp = 0,
+                         .written = {},
+                         .read = {}});
     if (launch.has_barriers) {
       try {
-        fibers_.run(launch.num_threads, body, [&] {
-          run.state.phase++;
-          return order_of(launch.num_threads);
-        });
+        fibers_.run(launch.num_threads, warp_size, body, referee);
       } catch (const std::logic_error &error) {
         throw DeviceError("block " + std::to_string(run.state.block) + " of the kernel '" + function.name +
                           "': " + error.what());
       }
     } else {
-      run.state.phase++;
       for (const int thread : order_of(launch.num_threads)) body(thread);
     }
   }

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "../gpu/driver.hpp"
+#include "../gpu/options.hpp"
 #include "fibers.hpp"
 #include "text/emulator.hpp"
 
@@ -17,7 +17,7 @@ enum class Order { forward, backward, shuffled };
 struct Options {
   Order order = Order::forward;  ///< of blocks, and of threads between two barriers
   int warp_size = 32;
-  int device_id = 0;  ///< what it says it is
+  gpu::Options device;  ///< as devices have them
 };
 /// "order=shuffled,warp=64,device_id=1". Throws gpu::DeviceError, with what was expected.
 Options parse(const std::string &text);

@@ -2,6 +2,7 @@
 
 #include <ucontext.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <stdexcept>
@@ -47,10 +48,12 @@ void arrived([[maybe_unused]] Place &at, [[maybe_unused]] Place &from) {
 #endif
 }
 
+enum class State { can_go_on, waits_for_team, waits_for_all, ended };
+
 struct Fiber {
   Place place;
   std::unique_ptr<std::byte[]> stack;
-  bool has_ended = true;
+  State state = State::ended;
 };
 
 }  // namespace
@@ -83,6 +86,19 @@ struct Fibers::Turns {
 #endif
   }
 
+  /// Goes to a fiber that can go on, and comes back when it waits or ends.
+  void go_on(int t);
+  /// Goes back from there.
+  void wait(State state);
+  /// Lets those in [first, end) go on where all of them wait for this.
+  bool release(int first, int end, State state) {
+    for (int t = first; t < end; t++) {
+      if (fibers[t].state != state) return false;
+    }
+    for (int t = first; t < end; t++) fibers[t].state = State::can_go_on;
+    return true;
+  }
+  [[noreturn]] void refuse(int count, int team_size) const;
   /// What runs on a fiber's stack, from its beginning.
   static void run_current();
   void begin(Fiber &fiber) {
@@ -92,7 +108,7 @@ struct Fibers::Turns {
     fiber.place.context.uc_link = nullptr;
     fiber.place.frames = nullptr;
     ::makecontext(&fiber.place.context, run_current, 0);
-    fiber.has_ended = false;
+    fiber.state = State::can_go_on;
   }
 };
 
@@ -112,44 +128,78 @@ void Fibers::Turns::run_current() {
   } catch (...) {
     turns.thrown = std::current_exception();
   }
-  fiber.has_ended = true;
+  fiber.state = State::ended;
   leave(fiber.place, turns.scheduler, true);
 }
 
 Fibers::Fibers() : turns_(std::make_unique<Turns>()) {}
 Fibers::~Fibers() = default;
 
-void Fibers::run(int count, const std::function<void(int)> &body, const std::function<std::vector<int>()> &order) {
+void Fibers::Turns::go_on(int t) {
+  current = t;
+  leave(scheduler, fibers[t].place, false);
+  Place nowhere;
+  arrived(scheduler, nowhere);
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+void Fibers::Turns::wait(State state) {
+  Fiber &fiber = fibers[current];
+  fiber.state = state;
+  leave(fiber.place, scheduler, false);
+  arrived(fiber.place, scheduler);
+}
+
+/// Nobody can go on, and not all have ended: somebody does not come to where somebody else waits.
+void Fibers::Turns::refuse(int count, int team_size) const {
+  for (int t = 0; t < count; t++) {
+    if (fibers[t].state == State::ended) continue;
+    const bool is_of_team = fibers[t].state == State::waits_for_team;
+    const int first = is_of_team ? t / team_size * team_size : 0,
+              end = is_of_team ? std::min(count, first + team_size) : count;
+    for (int other = first; other < end; other++) {
+      if (fibers[other].state == fibers[t].state) continue;
+      throw std::logic_error("thread " + std::to_string(t) + " waits at a barrier" +
+                             (is_of_team ? " of its warp" : "") + " that thread " + std::to_string(other) +
+                             " does not come to");
+    }
+  }
+  throw std::logic_error("no thread can go on");
+}
+
+void Fibers::run(int count, int team_size, const std::function<void(int)> &body, const Referee &referee) {
   Turns &turns = *turns_;
   turns.make(count);
   turns.body = &body;
   turns.thrown = nullptr;
   running = &turns;
   for (int t = 0; t < count; t++) turns.begin(turns.fibers[t]);
-  for (int num_waiting = count; num_waiting > 0;) {
-    num_waiting = 0;
-    int has_ended = -1, waits = -1;
-    for (const int t : order()) {
-      turns.current = t;
-      leave(turns.scheduler, turns.fibers[t].place, false);
-      Place nowhere;
-      arrived(turns.scheduler, nowhere);
-      if (turns.thrown) std::rethrow_exception(turns.thrown);
-      (turns.fibers[t].has_ended ? has_ended : waits) = t;
-      if (!turns.fibers[t].has_ended) num_waiting++;
+  for (bool can_go_on = true; can_go_on;) {
+    for (const int t : referee.order()) {
+      if (turns.fibers[t].state == State::can_go_on) turns.go_on(t);
     }
-    if (num_waiting > 0 && num_waiting < count) {
-      throw std::logic_error("thread " + std::to_string(waits) + " waits at a barrier that thread " +
-                             std::to_string(has_ended) + " does not come to");
+    can_go_on = false;
+    for (int first = 0; first < count; first += team_size) {
+      if (!turns.release(first, std::min(count, first + team_size), State::waits_for_team)) continue;
+      referee.team_met(first / team_size);
+      can_go_on = true;
     }
+    if (!can_go_on && turns.release(0, count, State::waits_for_all)) {
+      referee.all_met();
+      can_go_on = true;
+    }
+  }
+  for (int t = 0; t < count; t++) {
+    if (turns.fibers[t].state != State::ended) turns.refuse(count, team_size);
   }
 }
 
 void Fibers::wait() {
-  Turns &turns = *turns_;
-  Fiber &fiber = turns.fibers[turns.current];
-  leave(fiber.place, turns.scheduler, false);
-  arrived(fiber.place, turns.scheduler);
+  turns_->wait(State::waits_for_all);
+}
+
+void Fibers::wait_for_team() {
+  turns_->wait(State::waits_for_team);
 }
 
 }  // namespace hg::emu

@@ -8,7 +8,8 @@
 
 namespace hg::emu {
 
-/// Functions that run in turn, each on a stack of its own, and wait for each other.
+/// Functions that run in turn, each on a stack of its own, and wait for each other, or for those of their team: teams
+/// are so many that follow each other.
 class Fibers {
  public:
   Fibers();
@@ -16,12 +17,19 @@ class Fibers {
   Fibers &operator=(const Fibers &) = delete;
   ~Fibers();
 
-  /// Calls body(t) for t = 0 ... count - 1. Up to wait(), or to their end, they run in the order that `order` says,
-  /// which is asked anew after each wait. Throws what a body throws, and std::logic_error where some wait and others
-  /// have ended; those that have not ended stay where they are, and are forgotten.
-  void run(int count, const std::function<void(int)> &body, const std::function<std::vector<int>()> &order);
+  /// What is asked and told while they run.
+  struct Referee {
+    std::function<std::vector<int>()> order;  ///< in which those that can go on do so, each time that some can
+    std::function<void(int team)> team_met;   ///< all of a team wait for each other, and are about to go on
+    std::function<void()> all_met;            ///< all wait for all
+  };
+  /// Calls body(t) for t = 0 ... count - 1. Throws what a body throws, and std::logic_error where some wait for others
+  /// that wait elsewhere or have ended; those that have not ended stay where they are, and are forgotten.
+  void run(int count, int team_size, const std::function<void(int)> &body, const Referee &referee);
   /// From within a body: goes on when all have come here.
   void wait();
+  /// The same for its team.
+  void wait_for_team();
 
  private:
   struct Turns;

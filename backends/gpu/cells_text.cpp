@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "../host/access.hpp"
 #include "../host/fields.hpp"
 #include "assembly_text.hpp"
+#include "restriction.hpp"
 
 namespace hg::gpu {
 
@@ -16,16 +18,15 @@ namespace {
 class CellPrinter {
  public:
   CellPrinter(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose)
-      : program_(program), function_(function), assembly_(program, purpose), spaces_(program.num_spaces) {
+      : block_(block),
+        program_(program),
+        function_(function),
+        assembly_(program, purpose),
+        spaces_(program.num_spaces) {
     chk(CeedElemRestrictionGetNumComponents(program.points_rstr, &dim_));
-    text_.num_threads = block.num_threads;
-    most_shared_ = block.shared_bytes;
     for (CeedInt i = 0; i < program.num_spaces; i++) {
       if (program.spaces[i].rstr != CEED_ELEMRESTRICTION_NONE) spaces_[i] = space(program.spaces[i].basis);
     }
-  }
-
-  OperatorText print() {
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
       if (!assembly_.is_read(field) || !is_evaluated(field)) continue;
@@ -36,54 +37,26 @@ class CellPrinter {
       const CeedProgramField &field = program_.outputs[o];
       if (is_evaluated(field)) evaluation_of(integrations_, field, false).array_of(field) = o;
     }
-    lay_out();
-    if (text_.shared_bytes + text_.num_elem * text_.bytes_of_cell > most_shared_ || text_.numbers.size() > most_numbers)
-      return {};
+  }
 
-    line("const CeedInt first = job.facts.groups[block()], count = job.facts.groups[block() + 1] - first;");
-    line("const CeedInt *const starts = job.facts.points.offsets;");
-    line("const CeedInt end = starts[first + count];");
-    line("if (starts[first] == end) return;");
-    for (CeedInt s = 0; s < program_.num_sources; s++) {
-      if (nodes_[s].empty()) continue;
-      line("read_cells<{}, {}>(job.sources[{}], first, count, shared + {});", cell_of(source_space(s)), of_cell_, s,
-           nodes_[s]);
+  OperatorText print() {
+    if (text_.numbers.size() > most_numbers) return {};
+    if (evaluations_.empty() && integrations_.empty() && !assembly_.contracts()) {
+      text_.num_threads = block_.num_threads;
+      text_.num_elem = 0;
+      print_points();
+    } else {
+      if (!lay_out()) return {};
+      print_cells();
     }
-    line("for (CeedInt begin = starts[first]; begin < end; begin += threads) {{");
-    if (has_shared()) line("  barrier();");
-    line("  const CeedInt point = begin + thread();");
-    line("  if (point < end) {{");
-    at_point();
-    line("  }}");
-    if (has_lanes()) {
-      line("  barrier();");
-      line("  const PointLanes lanes{{starts + first, begin}};");
-    }
-    for (std::size_t f = 0; f < functions_.size(); f++) {
-      if (!functions_[f].is_kept) continue;
-      line("  const PointFunctions<{0}, {1}> at{2}{{shared + functions{2}}};", dim_, functions_[f].P, f);
-    }
-    for (const Evaluation &e : integrations_) {
-      const Space &s = spaces_[e.space];
-      const auto flux = [&](int o) { return o < 0 ? "shared" : fmt::format("shared + flux{}", o); };
-      line("  integrate_cells<{}, {}, {}, {}, {}>(job.sinks[{}], first, count, lanes, at{}, {}, {});", dim_, s.P,
-           s.num_comp, e.interp >= 0, e.derivative >= 0, e.side, s.functions, flux(e.interp), flux(e.derivative));
-    }
-    if (assembly_.contracts()) {
-      line("  const {} matrices{{shared + columns}};", assembly_.matrices_type());
-      const auto functions_of = [&](CeedInt space) { return functions_text(spaces_[space]); };
-      for (const std::string &text : assembly_.contraction_lines(functions_of)) line("  {}", text);
-    }
-    line("}}");
-    text_.text = begin_text(program_, function_, "cells.hpp", !assembly_.applies(), text_) +
-                 (has_shared() ? "  HG_SHARED(shared);\n" : "") + declarations_ + lines_ + "}\n}\n";
+    const std::string constants =
+        fmt::format("warp = {}, cell_lanes = {}, slots = {}", block_.warp_size, lanes_, slots_);
+    text_.text = begin_text(program_, function_, constants, "cells.hpp", !assembly_.applies(), text_) +
+                 (text_.num_elem > 0 ? "  HG_SHARED(shared);\n" : "") + declarations_ + lines_ + "}\n}\n";
     return std::move(text_);
   }
 
  private:
-  /// Whether anything is done with what the points of a cell have left.
-  bool has_lanes() const { return !integrations_.empty() || assembly_.contracts(); }
-  bool has_shared() const { return text_.shared_bytes + text_.bytes_of_cell > 0; }
   /// A space; `functions`: which of the distinct sets of functions it has.
   struct Space {
     CeedInt P = 0, K = 0, num_comp = 0;
@@ -92,7 +65,7 @@ class CellPrinter {
   struct Functions {
     CeedInt P, K;
     int numbers;
-    bool is_kept = false;  ///< in shared memory, for what comes after the points
+    bool is_kept = false;  ///< in shared memory, for what is contracted
   };
 
   Space space(CeedBasis basis) {
@@ -113,7 +86,7 @@ class CellPrinter {
   std::string cell_of(const Space &s) const { return fmt::format("Cell<{}, {}, {}>", dim_, s.P, s.num_comp); }
   FunctionsText functions_text(const Space &s) const {
     FunctionsText text{.tile = fmt::format("ProductTile<PointFunctions<{0}, {1}>, {0}, {1}", dim_, s.P),
-                       .functions = fmt::format("at{}", s.functions),
+                       .functions = fmt::format("functions_at{}", s.functions),
                        .num_nodes = CeedIntPow(s.P, dim_),
                        .in_line = s.P,
                        .kinds = {0},
@@ -126,129 +99,284 @@ class CellPrinter {
   CeedInt cell_size(const Space &s) const {
     return odd_pairs(CeedIntPow(s.P, dim_ - 1) * ((s.P * s.num_comp + 1) / 2 * 2));
   }
-  const Space &source_space(CeedInt source) const {
-    for (const Evaluation &e : evaluations_) {
-      if (e.side == source) return spaces_[e.space];
-    }
-    return spaces_.front();
-  }
 
-  /// Shared memory: first what each point has, then what each cell has.
-  void lay_out() {
-    CeedInt of_point = 0;
-    const auto add = [&](const std::string &name, CeedInt size) {
-      declarations_ += fmt::format("  constexpr int {} = threads * {};\n", name, of_point);
-      of_point += odd_pairs(size);
-    };
-    const auto keep_functions = [&](CeedInt space) {
+  /// Threads of a cell, points of a thread, and shared memory: first what each thread has, then what each cell has.
+  bool lay_out() {
+    text_.num_threads = block_.num_threads;
+    choose_lanes();
+    CeedInt of_thread = 0, of_cell = 0;
+    for (const CeedInt space : assembly_.spaces()) {
       Functions &f = functions_[spaces_[space].functions];
-      if (!f.is_kept) add(fmt::format("functions{}", spaces_[space].functions), 2 * dim_ * f.P);
+      if (f.is_kept) continue;
       f.is_kept = true;
-    };
-    for (const Evaluation &e : integrations_) {
-      keep_functions(e.space);
-      for (const int o : {e.interp, e.derivative}) {
-        if (o >= 0) add(fmt::format("flux{}", o), program_.outputs[o].size);
-      }
+      declarations_ +=
+          fmt::format("  constexpr int functions{} = threads * {};\n", spaces_[space].functions, of_thread);
+      of_thread += odd_pairs(2 * dim_ * f.P);
     }
     if (assembly_.contracts()) {
-      for (const CeedInt space : assembly_.spaces()) keep_functions(space);
-      declarations_ += fmt::format("  constexpr int columns = threads * {};\n", of_point);
-      of_point += assembly_.matrix_size();
+      declarations_ += fmt::format("  constexpr int columns = threads * {};\n", of_thread);
+      of_thread += assembly_.matrix_size();
     }
-    nodes_.resize(program_.num_sources);
+    for (std::size_t i = 0; sums_in_shared_ && i < integrations_.size(); i++) {
+      declarations_ += fmt::format("  constexpr int sums_of{} = threads * {};\n", i, of_thread);
+      of_thread += num_sums(integrations_[i]);
+    }
+    of_thread += of_thread % 2;
+    std::vector<CeedInt> places(program_.num_sources, -1);
+    for (const Evaluation &e : evaluations_) {
+      if (places[e.side] >= 0) continue;
+      places[e.side] = of_cell;
+      of_cell += cell_size(spaces_[e.space]);
+    }
     for (CeedInt s = 0; s < program_.num_sources; s++) {
-      const bool is_read =
-          std::any_of(evaluations_.begin(), evaluations_.end(), [&](const Evaluation &e) { return e.side == s; });
-      if (!is_read) continue;
-      nodes_[s] = fmt::format("nodes{}", s);
-      declarations_ += fmt::format("  constexpr int nodes{} = threads * {} + {};\n", s, of_point, of_cell_);
-      of_cell_ += cell_size(source_space(s));
+      if (places[s] < 0) continue;
+      declarations_ +=
+          fmt::format("  const SharedArray nodes{} = shared + (threads * {} + thread() / cell_lanes * {} + {});\n", s,
+                      of_thread, of_cell, places[s]);
     }
-    // Cells of a block: enough for eight points in each, as far as they need no more memory than points do.
-    constexpr CeedInt few_points = 8;
-    constexpr std::size_t for_cells = 24 << 10;
-    text_.shared_bytes = static_cast<std::size_t>(of_point) * text_.num_threads * sizeof(CeedScalar);
-    text_.bytes_of_cell = of_cell_ * sizeof(CeedScalar);
-    text_.num_elem = text_.num_threads / few_points;
-    if (text_.num_elem * text_.bytes_of_cell > for_cells) {
-      text_.num_elem = std::max<CeedInt>(1, static_cast<CeedInt>(for_cells / text_.bytes_of_cell));
+    const auto bytes = [&] {
+      const CeedInt cells = text_.num_threads / lanes_;
+      return (static_cast<std::size_t>(of_thread) * text_.num_threads + static_cast<std::size_t>(of_cell) * cells) *
+             sizeof(CeedScalar);
+    };
+    // Several blocks are to find room.
+    const auto is_much = [&] { return bytes() > block_.shared_bytes / 3; };
+    while (is_much() && text_.num_threads > block_.warp_size) text_.num_threads -= block_.warp_size;
+    text_.shared_bytes = bytes();
+    text_.num_elem = text_.num_threads / lanes_;
+    text_.points_of_step = lanes_ * slots_;
+    while (assembly_.applies() && registers(text_.num_blocks + 1) >= wanted_registers()) text_.num_blocks++;
+    return text_.shared_bytes <= block_.shared_bytes;
+  }
+  /// A matrix is taken by a whole warp. Else two points for a thread, which share what they read of the nodes, where
+  /// registers have room for them.
+  void choose_lanes() {
+    constexpr int few_registers = 128;
+    lanes_ = block_.warp_size;
+    if (assembly_.contracts()) return;
+    for (slots_ = block_.slots > 0 ? block_.slots : 2;; slots_ = 1) {
+      lanes_ = block_.lanes > 0 ? std::min(block_.lanes, block_.warp_size) : lanes_of_cell();
+      sums_in_shared_ = num_sums() > most_sums;
+      if (slots_ == block_.slots || slots_ == 1 || wanted_registers() <= few_registers) return;
     }
-    // A processor is to hold as many threads as its registers have room for with a point's numbers in them: the
-    // functions of a basis, sums, and a line of nodes. (Where that is up to 96, 80 and a few numbers spilled are 12 %
-    // faster.)
-    int numbers = 0;
+  }
+  /// As many as leave few without a point (5 % more of these are worth twice as many lanes, which have smaller shares),
+  /// and more where the nodes of a block's cells, or sums, would take too much of shared memory for several blocks.
+  CeedInt lanes_of_cell() {
+    constexpr CeedInt fewest = 4, most = 16;
+    constexpr double more = 1.05;
+    constexpr CeedInt looked_at = 4096;  // cells
+    const CeedElementMap &map = map_of(program_.points_rstr);
+    const CeedInt distance = std::max<CeedInt>(1, program_.num_elem / looked_at);
+    const auto places_of = [&](CeedInt lanes) {
+      CeedSize places = 0;
+      const CeedInt of_step = lanes * slots_;
+      for (CeedSize e = 0; e < program_.num_elem; e += distance) {
+        places += (map.offsets[e + 1] - map.offsets[e] + of_step - 1) / of_step * of_step;
+      }
+      return static_cast<double>(places);
+    };
+    const double least = more * places_of(fewest);
+    CeedInt wanted = fewest;
+    while (wanted < most && places_of(wanted * 2) <= least) wanted *= 2;
+    std::size_t of_cell = 0;
+    for (const Evaluation &e : evaluations_) of_cell += cell_size(spaces_[e.space]);
+    const auto is_much = [&] {
+      const std::size_t sums = num_sums() > most_sums ? static_cast<std::size_t>(num_sums()) * text_.num_threads : 0;
+      return (of_cell * (text_.num_threads / lanes_) + sums) * sizeof(CeedScalar) > block_.shared_bytes / 5;
+    };
+    for (lanes_ = wanted; lanes_ < block_.warp_size && is_much();) lanes_ *= 2;
+    return lanes_;
+  }
+  /// Lines of nodes that are summed at a time: a plane where that is not too much for registers.
+  CeedInt lines_at_once(const Space &s) const {
+    constexpr CeedInt most = 32, longest = 4;
+    const CeedInt in_plane = dim_ > 1 ? s.P : 1;
+    return s.P <= longest && in_plane * s.P * s.num_comp <= most ? in_plane : 1;
+  }
+  /// Numbers of a lane's sums, as CellSums has them.
+  CeedInt num_sums(const Evaluation &e) const {
+    const Space &s = spaces_[e.space];
+    CeedInt share = lines_at_once(s) * s.P * s.num_comp;
+    for (CeedInt group = lanes_; group > 1; group /= 2) share = (share + 1) / 2;
+    return CeedIntPow(s.P, dim_ - 1) / lines_at_once(s) * share;
+  }
+  CeedInt num_sums() const {
+    return std::accumulate(integrations_.begin(), integrations_.end(), CeedInt{0},
+                           [&](CeedInt sum, const Evaluation &e) { return sum + num_sums(e); });
+  }
+  /// What a thread has at hand at once: the functions of its points, its sums over steps, and what the evaluation of a
+  /// field, with two lines of nodes, or a part of its integration works with. For all bake-off problems up to p = 4 the
+  /// compiler spills three numbers at most with two registers for each of these and 22 for all else.
+  int wanted_registers() const {
+    constexpr int in_number = 2, other = 22;
+    int functions = 0, stored = 0, most = 0;
+    std::vector<int> kinds(functions_.size());
+    for (const auto *evaluations : {&evaluations_, &integrations_}) {
+      for (const Evaluation &e : *evaluations) {
+        int &of_space = kinds[spaces_[e.space].functions];
+        of_space = std::max(of_space, e.derivative >= 0 ? 2 : 1);
+      }
+    }
+    for (std::size_t f = 0; f < functions_.size(); f++) functions += kinds[f] * dim_ * functions_[f].P;
+    for (CeedInt i = 0; i < program_.num_inputs; i++) {
+      if (program_.inputs[i].eval_mode == CEED_EVAL_NONE) stored += program_.inputs[i].size;
+    }
     for (const Evaluation &e : evaluations_) {
       const Space &s = spaces_[e.space];
-      numbers = std::max(numbers, 2 * dim_ * s.P + (dim_ + 1 + s.P) * s.num_comp);
+      const int sums = e.derivative >= 0 ? 1 + dim_ : 1, in_plane = dim_ < 3 ? 0 : e.derivative >= 0 ? 3 : 1;
+      most = std::max(most, slots_ * ((sums + in_plane) * s.num_comp + stored) + 2 * s.P * s.num_comp);
     }
-    constexpr int few = 80, enough_for_few = 96, other = 16;
-    const int wanted = 2 * numbers + other <= enough_for_few ? few : 2 * numbers + other;
-    text_.num_blocks = 1;
-    if (!assembly_.applies()) return;
-    while (registers(text_.num_blocks + 1) >= wanted) text_.num_blocks++;
+    for (const Evaluation &e : integrations_) {
+      const Space &s = spaces_[e.space];
+      const int flux = (e.interp >= 0 ? 1 : 0) + (e.derivative >= 0 ? dim_ : 0),
+                in_plane = e.derivative >= 0 ? dim_ : 1;
+      most = std::max(most, slots_ * (flux + in_plane) * s.num_comp + lines_at_once(s) * s.P * s.num_comp);
+    }
+    return other + in_number * (slots_ * functions + (sums_in_shared_ ? 0 : num_sums()) + most);
   }
   /// Of a thread, where a processor holds so many blocks: a quarter of its 65536 are for a quarter of the warps.
   int registers(int num_blocks) const {
-    constexpr int quarter = 65536 / 4, in_warp = 32;
+    constexpr int quarter = 65536 / 4, in_warp = 32, unit = 8;
     const int warps = (num_blocks * text_.num_threads / in_warp + 3) / 4;
-    return quarter / in_warp / warps;
+    return quarter / in_warp / warps / unit * unit;
   }
 
-  void at_point() {
-    if (!evaluations_.empty()) {
-      line("    const int cell = job.facts.elem[point - starts[0]] - first;");
-    }
-    if (!evaluations_.empty() || has_lanes()) {
-      line("    CeedScalar x[{}];", dim_);
-      line("    read_point<{}>(job.facts.points, point, x);", dim_);
-    }
-    for (std::size_t f = 0; f < functions_.size(); f++) {
-      const Functions &functions = functions_[f];
-      if (evaluations_.empty() && !functions.is_kept) continue;
-      line("    Functions<{}, {}> at{};", dim_, functions.P, f);
-      line("    at{}.evaluate<{}>(job.numbers + {}, x);", f, functions.K, functions.numbers);
-      if (functions.is_kept) line("    at{0}.write(shared + functions{0}, thread());", f);
-    }
+  /// Nothing is evaluated and nothing integrated: a point for each thread.
+  void print_points() {
+    line("const CeedInt *const starts = job.facts.points.offsets;");
+    line("const CeedSize point = starts[0] + index();");
+    line("if (point >= starts[job.facts.num_elem]) return;");
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
-      if (!assembly_.is_read(field) || !is_first(i)) continue;
-      line("    CeedScalar in{}[{}];", i, field.size);
-      if (field.eval_mode == CEED_EVAL_WEIGHT) line("    in{}[0] = 1;", i);
-      if (field.eval_mode == CEED_EVAL_NONE) {
-        line("    read_point<{}>(job.sources[{}], point, in{});", field.size, field.side, i);
+      if (!assembly_.is_read(field)) continue;
+      line("CeedScalar in{}[{}];", i, field.size);
+      line("{}", stored_input(i, "point", fmt::format("in{}", i)));
+    }
+    if (assembly_.applies()) {
+      for (const std::string &text : output_lines(program_)) line("{}", text);
+    }
+    for (const std::string &text : at_point("point")) line("{}", text);
+  }
+  /// An input that is stored, or a weight.
+  std::string stored_input(CeedInt i, const std::string &point, const std::string &to) const {
+    const CeedProgramField &field = program_.inputs[i];
+    if (field.eval_mode == CEED_EVAL_WEIGHT) return to + "[0] = 1;";
+    return fmt::format("read_point<{}>(job.sources[{}], {}, {});", field.size, field.side, point, to);
+  }
+  /// What is done at a point with in0, in1, ..., and out0, out1, ...
+  std::vector<std::string> at_point(const std::string &point) const {
+    if (!assembly_.applies()) {
+      return assembly_.column_lines(
+          assembly_.contracts()
+              ? fmt::format("{}{{shared + columns}}.write_column(thread(), i, column);", assembly_.matrices_type())
+              : fmt::format("write_column<{}, {}>(column, job.facts.entries, {} - job.facts.points.offsets[0], i);",
+                            program_.num_active_in, program_.num_active_out, point));
+    }
+    std::vector<std::string> lines = call_lines(program_);
+    for (CeedInt o = 0; o < program_.num_outputs; o++) {
+      const CeedProgramField &field = program_.outputs[o];
+      if (is_evaluated(field)) continue;
+      lines.push_back(fmt::format("write_point<{}>(job.sinks[{}], {}, out{});", field.size, field.side, point, o));
+    }
+    return lines;
+  }
+
+  void print_cells() {
+    line("const CellLanes at(job.facts);");
+    std::vector<bool> is_read(program_.num_sources);
+    for (const Evaluation &e : evaluations_) {
+      if (is_read[e.side]) continue;
+      is_read[e.side] = true;
+      line("read_cell<{}>(job.sources[{}], at, nodes{});", cell_of(spaces_[e.space]), e.side, e.side);
+    }
+    for (std::size_t i = 0; i < integrations_.size(); i++) {
+      const Space &s = spaces_[integrations_[i].space];
+      line("CellSums<{}, {}, {}, {}, {}> sums{}(shared + {});", dim_, s.P, s.num_comp, lines_at_once(s),
+           sums_in_shared_, i, sums_in_shared_ ? fmt::format("sums_of{}", i) : "0");
+    }
+    line("HG_ROLLED for (CeedInt step = 0; step < at.num_steps; step++) {{");
+    if (!evaluations_.empty()) line("  warp_barrier();");
+    read_points();
+    evaluate_and_call();
+    if (assembly_.contracts()) contract();
+    for (std::size_t i = 0; i < integrations_.size(); i++) {
+      const Evaluation &e = integrations_[i];
+      const auto array = [](int o) { return o < 0 ? std::string("nullptr") : fmt::format("outs{}", o); };
+      line("  sums{}.add<{}, {}>(at{}, {}, {});", i, e.interp >= 0, e.derivative >= 0, spaces_[e.space].functions,
+           array(e.interp), array(e.derivative));
+    }
+    line("}}");
+    for (std::size_t i = 0; i < integrations_.size(); i++) {
+      line("sums{}.add_to(job.sinks[{}], at);", i, integrations_[i].side);
+    }
+  }
+  /// What is read from memory comes first, for all points of a thread.
+  void read_points() {
+    line("  CeedInt points[slots];");
+    line("  CeedScalar x[slots][{}];", dim_);
+    for (CeedInt i = 0; i < program_.num_inputs; i++) {
+      if (assembly_.is_read(program_.inputs[i]) && is_first(i)) {
+        line("  CeedScalar ins{}[slots][{}];", i, program_.inputs[i].size);
       }
+    }
+    line("  HG_UNROLL for (int s = 0; s < slots; s++) {{");
+    line("    points[s] = at.point(step, s);");
+    line("    read_coordinates<{}>(job.facts.points, at, points[s], x[s]);", dim_);
+    line("    if (!at.has(points[s])) continue;");
+    for (CeedInt i = 0; i < program_.num_inputs; i++) {
+      const CeedProgramField &field = program_.inputs[i];
+      if (!assembly_.is_read(field) || is_evaluated(field)) continue;
+      line("    {}", stored_input(i, "points[s]", fmt::format("ins{}[s]", i)));
+    }
+    line("  }}");
+  }
+  void evaluate_and_call() {
+    for (std::size_t f = 0; f < functions_.size(); f++) {
+      line("  Functions<{}, {}> at{}[slots];", dim_, functions_[f].P, f);
+      line("  HG_UNROLL for (int s = 0; s < slots; s++) at{}[s].evaluate<{}>(job.numbers + {}, x[s]);", f,
+           functions_[f].K, functions_[f].numbers);
+      if (functions_[f].is_kept) line("  at{0}[0].write(shared + functions{0}, thread());", f);
     }
     for (const Evaluation &e : evaluations_) {
       const Space &s = spaces_[e.space];
-      const auto array = [](int i) { return i < 0 ? std::string("nullptr") : fmt::format("in{}", i); };
-      line("    evaluate_point<{}, {}, {}, {}, {}>(at{}, shared + ({} + cell * {}), {}, {});", dim_, s.P, s.num_comp,
-           e.interp >= 0, e.derivative >= 0, s.functions, nodes_[e.side], of_cell_, array(e.interp),
-           array(e.derivative));
+      const auto array = [](int i) { return i < 0 ? std::string("nullptr") : fmt::format("ins{}", i); };
+      line("  if (at.has(points[0])) evaluate_points<{}, {}, {}, {}, {}>(at{}, nodes{}, {}, {});", dim_, s.P,
+           s.num_comp, e.interp >= 0, e.derivative >= 0, s.functions, e.side, array(e.interp), array(e.derivative));
     }
+    for (CeedInt o = 0; assembly_.applies() && o < program_.num_outputs; o++) {
+      line("  CeedScalar outs{}[slots][{}];", o, program_.outputs[o].size);
+    }
+    line("  HG_UNROLL for (int s = 0; s < slots; s++) {{");
+    for (CeedInt o = 0; assembly_.applies() && o < program_.num_outputs; o++) {
+      const CeedInt size = program_.outputs[o].size;
+      if (is_evaluated(program_.outputs[o]))
+        line("    HG_UNROLL for (int i = 0; i < {}; i++) outs{}[s][i] = 0;", size, o);
+    }
+    line("    if (!at.has(points[s])) continue;");
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
-      if (!assembly_.is_read(program_.inputs[i]) || is_first(i)) continue;
-      line("    CeedScalar *const in{} = in{};", i, first_of(i));
+      if (assembly_.is_read(program_.inputs[i])) line("    CeedScalar *const in{} = ins{}[s];", i, first_of(i));
     }
-    if (!assembly_.applies()) {
-      const std::string write =
-          assembly_.contracts()
-              ? fmt::format("{}{{shared + columns}}.write_column(thread(), i, column);", assembly_.matrices_type())
-              : fmt::format("write_column<{}, {}>(column, job.facts.entries, point - starts[0], i);",
-                            program_.num_active_in, program_.num_active_out);
-      for (const std::string &text : assembly_.column_lines(write)) line("    {}", text);
-      return;
+    for (CeedInt o = 0; assembly_.applies() && o < program_.num_outputs; o++) {
+      line("    CeedScalar *const out{} = outs{}[s];", o, o);
     }
-    for (const std::string &text : output_lines(program_)) line("    {}", text);
-    for (const std::string &text : call_lines(program_)) line("    {}", text);
-    for (CeedInt o = 0; o < program_.num_outputs; o++) {
-      const CeedProgramField &field = program_.outputs[o];
-      if (is_evaluated(field)) {
-        line("    write_flux<{0}>(out{1}, shared + flux{1}, thread());", field.size, o);
-      } else {
-        line("    write_point<{}>(job.sinks[{}], point, out{});", field.size, field.side, o);
-      }
+    for (const std::string &text : at_point("points[s]")) line("    {}", text);
+    line("  }}");
+  }
+  /// Each cell of the block has a warp.
+  void contract() {
+    line("  warp_barrier();");
+    line("  const StepLanes lanes(at, step);");
+    line("  const CeedSize first = at.cell;");
+    line("  const int count = 1;");
+    line("  const {} matrices{{shared + columns}};", assembly_.matrices_type());
+    for (std::size_t f = 0; f < functions_.size(); f++) {
+      if (!functions_[f].is_kept) continue;
+      line("  const PointFunctions<{0}, {1}> functions_at{2}{{shared + functions{2}}};", dim_, functions_[f].P, f);
     }
+    const auto functions_of = [&](CeedInt space) { return functions_text(spaces_[space]); };
+    for (const std::string &text : assembly_.contraction_lines(functions_of)) line("  {}", text);
+    line("  warp_barrier();");
   }
   /// The input whose values this one has.
   int first_of(CeedInt i) {
@@ -262,16 +390,17 @@ class CellPrinter {
     lines_ += "  " + fmt::format(format, std::forward<Args>(args)...) + '\n';
   }
 
+  const Block &block_;
   const CeedProgram &program_;
   const FunctionText &function_;
   AssemblyText assembly_;
-  CeedInt dim_ = 0, of_cell_ = 0;
-  std::size_t most_shared_ = 0;
+  CeedInt dim_ = 0, lanes_ = 1, slots_ = 1;
+  static constexpr CeedInt most_sums = 9;  ///< that registers are to keep over all steps of a cell
+  bool sums_in_shared_ = false;
   std::vector<Functions> functions_;
   OperatorText text_;
   std::vector<Space> spaces_;
   std::vector<Evaluation> evaluations_, integrations_;
-  std::vector<std::string> nodes_;  ///< names of arrays, of the sources that have them
   std::string declarations_, lines_;
 };
 
@@ -279,12 +408,7 @@ class CellPrinter {
 
 OperatorText cells_text(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose) {
   if (!is_taken(program) || program.num_outputs == 0 || !AssemblyText(program, purpose).is_taken()) return {};
-  Block smaller = block;
-  for (; smaller.num_threads >= block.warp_size; smaller.num_threads -= block.warp_size) {
-    OperatorText text = CellPrinter(smaller, program, function, purpose).print();
-    if (!text.text.empty()) return text;
-  }
-  return {};
+  return CellPrinter(block, program, function, purpose).print();
 }
 
 }  // namespace hg::gpu

@@ -54,12 +54,17 @@ class Buffer {
   std::size_t bytes_ = 0;
 };
 
+/// How whole operators are laid out on the device.
+struct Tuning {
+  int threads = 256;         ///< most threads of a block
+  int lanes = 0, slots = 0;  ///< at points: threads of a cell, points of a thread at a time; 0: as the operator wants
+};
+
 /// Any thread may use it.
 class Device {
  public:
-  /// `block_threads`: most threads of a block of a whole operator.
-  explicit Device(std::shared_ptr<Driver> driver, int block_threads = usual_threads)
-      : driver_(std::move(driver)), block_threads_(block_threads) {}
+  explicit Device(std::shared_ptr<Driver> driver, const Tuning &tuning = {})
+      : driver_(std::move(driver)), tuning_(tuning) {}
 
   /// That of an object's Ceed.
   static Device &of(Ceed ceed);
@@ -103,7 +108,7 @@ class Device {
   void prepare() { library(); }
 
   static constexpr int usual_threads = 256;
-  int block_threads() const { return block_threads_; }
+  const Tuning &tuning() const { return tuning_; }
 
  private:
   Module &library();
@@ -111,7 +116,7 @@ class Device {
 
   std::recursive_mutex mutex_;
   std::shared_ptr<Driver> driver_;
-  int block_threads_;
+  Tuning tuning_;
   std::unique_ptr<Module> library_;
   std::map<std::string, Kernel, std::less<>> kernels_;
 };

@@ -458,7 +458,8 @@ class ElementPrinter {
         std::max(1, std::min(static_cast<int>(block_.shared_bytes / std::max<std::size_t>(text_.shared_bytes, 1)),
                              threads_of_processor / text_.num_threads));
     if (!assembly_.applies()) text_.num_blocks = 1;
-    text_.text = begin_text(program_, function_, "elements.hpp", !assembly_.applies(), text_) +
+    text_.text = begin_text(program_, function_, fmt::format("elems = {}", text_.num_elem), "elements.hpp",
+                            !assembly_.applies(), text_) +
                  "  HG_SHARED(shared);\n" + phases_.declarations() +
                  "  const CeedSize first = block() * elems, left = job.facts.num_elem - first;\n"
                  "  const int count = left < elems ? static_cast<int>(left) : elems;\n" +

@@ -40,9 +40,25 @@ class JobBytes {
   std::vector<std::byte> bytes_;
 };
 
-/// Three quarters of a block's threads, in whole warps.
-int block_of_points(const Properties &device, int threads) {
-  return std::max(device.warp_size, threads * 3 / 4 / device.warp_size * device.warp_size);
+/// The cells that have points. Those that follow each other are in order of their steps, most of them first, so that a
+/// warp has cells that take about as many; not over all cells, which would lose what neighbours share in caches.
+std::vector<CeedInt> cells_with_points(const CeedElementMap &map, CeedInt points_of_step) {
+  constexpr std::size_t together = 512;
+  std::vector<CeedInt> cells;
+  const auto steps_of = [&](CeedInt e) {
+    return (map.offsets[e + 1] - map.offsets[e] + points_of_step - 1) / points_of_step;
+  };
+  cells.reserve(map.num_elem);
+  for (CeedInt e = 0; e < map.num_elem; e++) {
+    if (steps_of(e) > 0) cells.push_back(e);
+  }
+  for (std::size_t first = 0; first < cells.size(); first += together) {
+    const auto begin = cells.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = begin + static_cast<std::ptrdiff_t>(std::min(together, cells.size() - first));
+    const auto has_more = [&](CeedInt a, CeedInt b) { return steps_of(a) > steps_of(b); };
+    if (!std::is_sorted(begin, end, has_more)) std::stable_sort(begin, end, has_more);
+  }
+  return cells;
 }
 
 /// Whether two components of nodes of one element are one entry of the L-vector.
@@ -72,12 +88,14 @@ bool is_diagonal(Purpose purpose) {
 std::unique_ptr<FusedOperator> FusedOperator::make(Device &device, const CeedProgram &program, Purpose purpose) {
   const FunctionText function(program.qf);
   const Properties &properties = device.driver().properties();
-  // At points fewer threads in a block, which have more to keep in shared memory: seven cells of 27 points, three
-  // of 64.
-  const int at_points = block_of_points(properties, device.block_threads());
-  const Block block{.num_threads = program.at_points ? at_points : device.block_threads(),
+  // At points warps do not wait for each other: blocks are small, and the next one begins sooner.
+  const Tuning &tuning = device.tuning();
+  const int at_points = std::max(1, tuning.threads / 2 / properties.warp_size) * properties.warp_size;
+  const Block block{.num_threads = program.at_points ? at_points : tuning.threads,
                     .warp_size = properties.warp_size,
-                    .shared_bytes = properties.shared_per_block};
+                    .shared_bytes = properties.shared_per_block,
+                    .lanes = tuning.lanes,
+                    .slots = tuning.slots};
   OperatorText text = program.at_points ? cells_text(block, program, function, purpose)
                                         : elements_text(block, program, function, purpose);
   if (text.text.empty()) return nullptr;
@@ -97,23 +115,14 @@ FusedOperator::FusedOperator(Device &device, const CeedProgram &program, const F
       kernel_(module_->kernel("hg_operator")),
       tables_(device.upload(text_.tables)) {}
 
-/// Cells that follow each other, as long as a thread of the block has no more than one point.
-void FusedOperator::group(const CeedProgram &program) {
+void FusedOperator::list_cells(const CeedProgram &program) {
   const CeedElementMap &map = map_of(program.points_rstr);
-  std::vector<CeedInt> groups, elem;
-  elem.reserve(map.offsets[program.num_elem] - map.offsets[0]);
-  for (CeedInt e = 0; e < program.num_elem; e++) {
-    const CeedInt first = groups.empty() ? 0 : groups.back();
-    const bool is_full = e - first >= text_.num_elem || map.offsets[e + 1] - map.offsets[first] > text_.num_threads;
-    if (groups.empty() || (is_full && e > first)) groups.push_back(e);
-    elem.insert(elem.end(), map.offsets[e + 1] - map.offsets[e], e);
+  num_points_ = map.offsets[program.num_elem] - map.offsets[0];
+  if (text_.num_elem > 0) {
+    const std::vector<CeedInt> cells = cells_with_points(map, text_.points_of_step);
+    num_cells_ = static_cast<CeedSize>(cells.size());
+    cells_ = device_.upload(cells);
   }
-  num_groups_ = static_cast<CeedInt>(groups.size());
-  groups.push_back(program.num_elem);
-  most_cells_ = 0;
-  for (CeedInt g = 0; g < num_groups_; g++) most_cells_ = std::max(most_cells_, groups[g + 1] - groups[g]);
-  groups_ = device_.upload(groups);
-  elem_ = device_.upload(elem);
   points_epoch_ = program.points_epoch;
 }
 
@@ -124,7 +133,7 @@ void FusedOperator::prepare(const CeedProgram &program) {
 }
 
 void FusedOperator::list_nodes(const CeedProgram &program) {
-  if (program.at_points && program.points_epoch != points_epoch_) group(program);
+  if (program.at_points && program.points_epoch != points_epoch_) list_cells(program);
   const auto list = [](CeedElemRestriction rstr) {
     if (map_of(rstr).offsets != nullptr) offsets_of(rstr);
   };
@@ -173,19 +182,22 @@ void FusedOperator::launch(const CeedProgram &program, const host::ProgramArrays
                       .entries = entries};
   if (program.at_points) {
     facts.points = side_of(program.points_rstr, arrays.points());
-    facts.groups = groups_.as<CeedInt>();
-    facts.elem = elem_.as<CeedInt>();
+    facts.cells = cells_.as<CeedInt>();
+    facts.num_cells = num_cells_;
   }
   JobBytes job;
   job.add(&facts, 1);
   job.add(sources.data(), sources.size());
   job.add(sinks.data(), sinks.size());
   job.add(text_.numbers.data(), text_.numbers.size());
-  const CeedInt num_blocks = program.at_points ? num_groups_ : (program.num_elem + text_.num_elem - 1) / text_.num_elem;
+  const bool is_by_points = text_.num_elem == 0;
+  const CeedSize work = is_by_points ? num_points_ : program.at_points ? num_cells_ : program.num_elem;
+  const CeedSize of_block = is_by_points ? text_.num_threads : text_.num_elem;
+  const CeedSize num_blocks = (work + of_block - 1) / of_block;
   const Launch launch{.num_blocks = static_cast<std::uint64_t>(num_blocks),
                       .num_threads = text_.num_threads,
-                      .shared_bytes = text_.shared_bytes + most_cells_ * text_.bytes_of_cell,
-                      .has_barriers = text_.shared_bytes + text_.bytes_of_cell > 0};
+                      .shared_bytes = text_.shared_bytes,
+                      .has_barriers = program.at_points ? !is_by_points : text_.shared_bytes > 0};
   if (num_blocks > 0) device_.driver().launch(kernel_, launch, job.data(), job.size());
   host::check_returned(program, state_.returned(), 0, program.num_elem);
 }

@@ -29,12 +29,12 @@ class FusedOperator {
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// What it was made for, to values[offset] and beyond: matrices of QFunctions are written, all else is added.
   void assemble(const CeedProgram &program, CeedSize offset, CeedVector values);
-  std::size_t num_bytes() const { return sizeof *this + tables_.num_bytes() + groups_.num_bytes() + elem_.num_bytes(); }
+  std::size_t num_bytes() const { return sizeof *this + tables_.num_bytes() + cells_.num_bytes(); }
 
  private:
   FusedOperator(Device &device, const CeedProgram &program, const FunctionText &function, OperatorText text,
                 Purpose purpose);
-  void group(const CeedProgram &program);
+  void list_cells(const CeedProgram &program);
   void list_nodes(const CeedProgram &program);
   void launch(const CeedProgram &program, const host::ProgramArrays &arrays, const std::vector<Side> &sinks,
               CeedScalar *entries);
@@ -48,8 +48,8 @@ class FusedOperator {
   Buffer tables_;
   // At points, as long as they are where they are:
   CeedSize points_epoch_ = -1;
-  CeedInt num_groups_ = 0, most_cells_ = 0;
-  Buffer groups_, elem_;
+  CeedSize num_cells_ = 0, num_points_ = 0;
+  Buffer cells_;
 };
 
 }  // namespace hg::gpu

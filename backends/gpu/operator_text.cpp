@@ -30,13 +30,12 @@ bool is_alone(const CeedProgram &program, CeedInt sink) {
   return true;
 }
 
-std::string begin_text(const CeedProgram &program, const FunctionText &function, const char *name, bool assembles,
-                       const OperatorText &text) {
+std::string begin_text(const CeedProgram &program, const FunctionText &function, const std::string &constants,
+                       const char *name, bool assembles, const OperatorText &text) {
   const auto at_least_one = [](std::size_t count) { return std::max<std::size_t>(count, 1); };
   std::string all =
-      function.text +
-      fmt::format("#line 1 \"operator\"\nnamespace hg::gpu {{\nconstexpr int elems = {}, threads = {};\n}}\n",
-                  text.num_elem, text.num_threads);
+      function.text + fmt::format("#line 1 \"operator\"\nnamespace hg::gpu {{\nconstexpr int threads = {}, {};\n}}\n",
+                                  text.num_threads, constants);
   const auto add = [&](const char *part) { all += fmt::format("#line 1 \"{}\"\n{}", part, gpu::text(part)); };
   add("sides.hpp");
   add(name);

@@ -16,11 +16,11 @@ struct OperatorText {
   std::string text;                 ///< empty where the program is not one that is taken
   std::vector<CeedScalar> numbers;  ///< OperatorJob::numbers
   std::vector<CeedScalar> tables;   ///< OperatorFacts::tables
-  CeedInt num_elem = 1;             ///< elements of a block; at points the most of them
-  int num_threads = 0;              ///< of a block; at points a block's points as well, where a cell has no more
+  CeedInt num_elem = 1;             ///< elements of a block; at points 0: each thread takes a point of any cell
+  CeedInt points_of_step = 1;       ///< at points: points of a cell that are taken at a time
+  int num_threads = 0;              ///< of a block
   int num_blocks = 1;               ///< that a processor is to hold
   std::size_t shared_bytes = 0;     ///< of a block
-  std::size_t bytes_of_cell = 0;    ///< at points: and as many for each of a block's cells
 };
 
 /// What a block may have.
@@ -28,6 +28,7 @@ struct Block {
   int num_threads = 256;  ///< at most
   int warp_size = 32;
   std::size_t shared_bytes = 0;  ///< at most; three blocks should find room where one processor has as much for all
+  int lanes = 0, slots = 0;      ///< at points: Tuning's
 
   int whole_warps(int threads) const { return (threads + warp_size - 1) / warp_size * warp_size; }
 };
@@ -57,10 +58,10 @@ inline bool is_evaluated(const CeedProgramField &field) {
 }
 /// Whether no other sink has the vector of this one.
 bool is_alone(const CeedProgram &program, CeedInt sink);
-/// The text before the kernel's own lines: the QFunction, constants, the text `name` of text/ with that of the sides,
+/// The text before the kernel's own lines: the QFunction, `constants`, the text `name` of text/ with that of the sides,
 /// and of assembly where it `assembles`, and the job's type.
-std::string begin_text(const CeedProgram &program, const FunctionText &function, const char *name, bool assembles,
-                       const OperatorText &text);
+std::string begin_text(const CeedProgram &program, const FunctionText &function, const std::string &constants,
+                       const char *name, bool assembles, const OperatorText &text);
 /// Where the QFunction puts its outputs: arrays out0, out1, ...
 std::vector<std::string> output_lines(const CeedProgram &program);
 /// Calls it for one point, from in0, in1, ... to out0, out1, ...

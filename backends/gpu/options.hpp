@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "device.hpp"
 
@@ -13,12 +12,13 @@ namespace hg::gpu {
 inline constexpr int current_device = -1;
 
 struct Options {
-  int device_id = current_device;       ///< which device, from 0 on, or the current one
-  int threads = Device::usual_threads;  ///< most threads of a block of a whole operator, from 32 to 1024
+  int device_id = current_device;  ///< which device, from 0 on, or the current one
+  Tuning tuning;
 };
-inline constexpr std::string_view device_option = "device_id=";
-/// "device_id=1". Throws DeviceError, with what was expected.
-int parse_device(const std::string &option);
+/// Reads one option of them, if it is one: "device_id=1". Throws DeviceError where its value is not what was expected.
+bool parse_option(const std::string &option, Options &options);
+/// What parse_option() takes, for messages.
+extern const char *const expected_options;
 /// "device_id=1,threads=128". Throws DeviceError, with what was expected.
 Options parse_options(const std::string &text);
 

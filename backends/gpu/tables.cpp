@@ -36,7 +36,7 @@ const CeedBackendOps &parents_tables() {
 
 void init(Ceed ceed, std::shared_ptr<Driver> driver, bool is_fused, const Options &options, CeedBackendOps *ops) {
   if (parents.size == 0) parents = *ops;
-  auto device = std::make_unique<Device>(std::move(driver), options.threads);
+  auto device = std::make_unique<Device>(std::move(driver), options.tuning);
   ops->preferred_mem_type = CEED_MEM_DEVICE;
   ops->is_deterministic = !is_fused;
   ops->host_memory_only = false;

@@ -13,9 +13,7 @@ namespace {
 
 using namespace hg;
 
-constexpr int num_threads = 8;
 constexpr std::uint64_t num_blocks = 3;
-constexpr std::size_t length = num_threads * num_blocks;
 
 /// What the kernels below get.
 struct Job {
@@ -26,8 +24,10 @@ const char *const job_text = "struct Job { const double *x; double *y; };\nusing
 
 class EmulatorTest : public testing::TestWithParam<const char *> {
  protected:
-  /// Runs a kernel with this body on x = 0, 1, ...; y.
-  std::vector<double> run(const std::string &body, std::size_t num_shared = num_threads, bool has_barriers = true) {
+  explicit EmulatorTest(int num_threads = 8) : num_threads(num_threads), length(num_threads * num_blocks) {}
+  /// Runs a kernel with this body on x = 0, 1, ...; y. Each thread has a word of shared memory, or there are so many.
+  std::vector<double> run(const std::string &body, std::size_t num_shared = 0, bool has_barriers = true) {
+    if (num_shared == 0) num_shared = num_threads;
     emu::Emulator device(emu::parse(GetParam()));
     std::vector<double> x(length), y(length, -1);
     std::iota(x.begin(), x.end(), 0.0);
@@ -52,7 +52,7 @@ class EmulatorTest : public testing::TestWithParam<const char *> {
     return y;
   }
   /// The message with which it is refused.
-  std::string error_of(const std::string &body, std::size_t num_shared = num_threads, bool has_barriers = true) {
+  std::string error_of(const std::string &body, std::size_t num_shared = 0, bool has_barriers = true) {
     try {
       run(body, num_shared, has_barriers);
     } catch (const gpu::DeviceError &error) {
@@ -64,6 +64,9 @@ class EmulatorTest : public testing::TestWithParam<const char *> {
     EXPECT_NE(message.find(words), std::string::npos) << message;
     EXPECT_NE(message.find("'test'"), std::string::npos) << message;
   }
+
+  const int num_threads;
+  const std::size_t length;
 };
 
 TEST_P(EmulatorTest, ThreadsExchangeValuesThroughSharedMemory) {
@@ -118,6 +121,78 @@ TEST_P(EmulatorTest, FindsABarrierThatNotAllComeTo) {
   expect_names(error_of("barrier();", num_threads, false), "has a barrier, and was said to have none");
 }
 
+/// Several warps in a block.
+class WarpTest : public EmulatorTest {
+ protected:
+  WarpTest() : EmulatorTest(128) {}
+
+  const int warp_size = emu::Emulator(emu::parse(GetParam())).properties().warp_size;
+};
+
+TEST_P(WarpTest, ThreadsOfAWarpExchangeValues) {
+  const auto y =
+      run("double values[2] = {job.x[index()], 1000 + job.x[index()]}; exchange<2>(values, 5);"
+          "exchange<1>(values, 16); job.y[index()] = values[0] + values[1];");
+  for (std::size_t i = 0; i < length; i++) {
+    EXPECT_EQ(y[i], static_cast<double>(((i ^ 16) ^ 5) + (1000 + (i ^ 5)))) << i;
+  }
+}
+
+TEST_P(WarpTest, FindsAnExchangeThatNotAllComeTo) {
+  expect_names(error_of("double v = 1; if (thread() % 4 != 3) exchange<1>(&v, 1); job.y[index()] = v;"),
+               "waits at a barrier of its warp that thread ");
+  expect_names(error_of("double v = 1; if (thread() % 4 != 3) { exchange<1>(&v, 1); } else { warp_barrier(); }"),
+               "exchanges 1 values with thread ");
+  expect_names(error_of("double v[2] = {}; if (thread() % 2) { exchange<1>(v, 1); } else { exchange<2>(v, 1); }"),
+               "values with thread ");
+}
+
+TEST_P(WarpTest, FindsAnExchangeWithAnotherWarp) {
+  expect_names(error_of("double v = 1; exchange<1>(&v, 64); job.y[index()] = v;"), "which is not of its warp");
+}
+
+/// One warp may be beyond its barrier while another one has not come to its own.
+TEST_P(WarpTest, ThreadsOfAWarpWaitForEachOther) {
+  const std::string warp = std::to_string(warp_size);
+  const auto y =
+      run("HG_SHARED(s); s[thread()] = job.x[index()]; for (int i = 0; i < 3 + thread() / " + warp +
+          "; i++) { warp_barrier(); const double other = s[thread() ^ 1]; warp_barrier(); s[thread()] = other; }"
+          "job.y[index()] = s[thread()];");
+  for (std::size_t i = 0; i < length; i++) {
+    const std::size_t turns = 3 + i % num_threads / static_cast<std::size_t>(warp_size);
+    EXPECT_EQ(y[i], static_cast<double>(turns % 2 == 0 ? i : i ^ 1)) << i;
+  }
+}
+
+TEST_P(WarpTest, FindsAMissingBarrierOfAWarp) {
+  expect_names(error_of("HG_SHARED(s); s[thread()] = 1; warp_barrier(); const double other = s[thread() ^ 1];"
+                        "s[thread()] = other; warp_barrier(); job.y[index()] = s[thread()];"),
+               "since the last barrier");
+}
+
+TEST_P(WarpTest, FindsABarrierOfAWarpWhereThatOfABlockIsWanted) {
+  const std::string next = "s[(thread() + " + std::to_string(warp_size) + ") % num_threads()]";
+  const std::string read = error_of("HG_SHARED(s); s[thread()] = 1; warp_barrier(); job.y[index()] = " + next + ";");
+  const bool is_found = read.find("reads shared memory that was not written") != std::string::npos ||
+                        read.find("reads what another thread has written") != std::string::npos;
+  EXPECT_TRUE(is_found) << read;
+  expect_names(error_of("HG_SHARED(s); s[thread()] = 1; barrier(); const double other = " + next +
+                        "; warp_barrier(); s[thread()] = other; barrier(); job.y[index()] = s[thread()];"),
+               "since the last barrier");
+}
+
+/// What several warps have read is not forgotten when one of them reads it again.
+TEST_P(WarpTest, RemembersReadersOfSeveralWarps) {
+  expect_names(error_of("HG_SHARED(s); s[thread()] = 1; barrier(); double sum = s[0]; warp_barrier(); sum += s[0];"
+                        "warp_barrier(); if (thread() == 0) s[0] = sum; barrier(); job.y[index()] = s[0];"),
+               "writes what another thread has read since the last barrier");
+}
+
+TEST_P(WarpTest, FindsAWarpThatDoesNotComeToABarrierOfAll) {
+  expect_names(error_of("if (thread() < " + std::to_string(warp_size) + ") { barrier(); } else { warp_barrier(); }"),
+               "waits at a barrier that thread ");
+}
+
 /// Threads run one after another, so that a counter shows their order.
 TEST_P(EmulatorTest, RunsThreadsInItsOrder) {
   const auto y =
@@ -165,14 +240,15 @@ TEST_P(EmulatorTest, PoisonsNewMemory) {
   EXPECT_NE(value, value);
 }
 
-INSTANTIATE_TEST_SUITE_P(Orders, EmulatorTest,
-                         testing::Values("order=forward", "order=backward", "order=shuffled,warp=64"),
-                         [](const auto &info) {
-                           std::string name(info.param);
-                           std::replace_if(
-                               name.begin(), name.end(), [](char c) { return c == '=' || c == ','; }, '_');
-                           return name;
-                         });
+const auto orders = testing::Values("order=forward", "order=backward", "order=shuffled,warp=64");
+std::string name_of(const testing::TestParamInfo<const char *> &info) {
+  std::string name(info.param);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '=' || c == ','; }, '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(Orders, EmulatorTest, orders, name_of);
+INSTANTIATE_TEST_SUITE_P(Orders, WarpTest, orders, name_of);
 
 TEST(EmulatorOptions, AreRead) {
   EXPECT_EQ(emu::Emulator(emu::parse("warp=64")).properties().warp_size, 64);

@@ -133,7 +133,7 @@ gpu::OperatorText text_of(CeedOperator op, int warp_size, gpu::Purpose purpose =
   const CeedProgram *program = nullptr;
   ok(CeedOperatorGetProgram(op, &program));
   const std::size_t shared = warp_size == 64 ? 64 << 10 : 163 << 10;
-  const gpu::Block block{.num_threads = program->at_points ? 192 : 256, .warp_size = warp_size, .shared_bytes = shared};
+  const gpu::Block block{.num_threads = program->at_points ? 128 : 256, .warp_size = warp_size, .shared_bytes = shared};
   const gpu::FunctionText function(program->qf);
   return program->at_points ? gpu::cells_text(block, *program, function, purpose)
                             : gpu::elements_text(block, *program, function, purpose);
@@ -179,7 +179,7 @@ TEST_P(VendorTest, CompilesTheBakeoffProblems) {
         }
         std::printf("%s %s: %d x %d threads, %zu KB, %d registers, %d bytes spilled\n", target().name, name.c_str(),
                     text.num_blocks, text.num_threads, text.shared_bytes >> 10, *registers, *spilled);
-        EXPECT_LE(*spilled, per_cell > 0 ? 144 : p <= 4 ? 72 : 168) << name;
+        EXPECT_LE(*spilled, per_cell > 0 ? 32 : p <= 4 ? 72 : 168) << name;
       }
     }
   }
@@ -236,9 +236,12 @@ TEST_P(VendorTest, SaysWhatIsWrongWithAText) {
 TEST(DeviceOptions, AreRead) {
   const gpu::Options usual = gpu::parse_options(""), both = gpu::parse_options("device_id=1,threads=128");
   EXPECT_EQ(usual.device_id, gpu::current_device);
-  EXPECT_EQ(usual.threads, gpu::Device::usual_threads);
+  EXPECT_EQ(usual.tuning.threads, gpu::Tuning().threads);
   EXPECT_EQ(both.device_id, 1);
-  EXPECT_EQ(both.threads, 128);
+  EXPECT_EQ(both.tuning.threads, 128);
+  const gpu::Options at_points = gpu::parse_options("lanes=8,slots=2");
+  EXPECT_EQ(at_points.tuning.lanes, 8);
+  EXPECT_EQ(at_points.tuning.slots, 2);
 }
 
 TEST(DeviceOptions, AreRefusedWithWhatWasExpected) {
@@ -247,6 +250,8 @@ TEST(DeviceOptions, AreRefusedWithWhatWasExpected) {
       {"threads=", {"'threads='", "32 to 1024"}},
       {"threads=64x", {"'threads=64x'", "32 to 1024"}},
       {"device_id=-1", {"'device_id=-1'", "0 to"}},
+      {"lanes=6", {"'lanes=6'", "a power of two from 1 to 64"}},
+      {"slots=5", {"'slots=5'", "1 to 4"}},
       {"threads=64,colour=red", {"'colour=red'", "device_id=N", "threads=N"}}};
   for (const auto &[text, words] : cases) {
     try {

@@ -7,21 +7,30 @@
 
 namespace hg::gpu {
 
+/// Between which barriers something was done: those of the block, and those of a warp, which the former are as well.
+struct Phase {
+  unsigned of_block, of_warp;
+};
+
 /// A word of shared memory, and who has used it since the last barrier.
 struct SharedWord {
   double value;
-  int writer, reader;                ///< a thread; -1: none, -2: several
-  unsigned write_phase, read_phase;  ///< between which barriers that was
+  int writer, reader;  ///< a thread; -1: none, -2: several of one warp, -3: of several
+  int reading_warp;
+  Phase written, read;
 };
 
 /// What a thread sees of its block.
 struct Emulated {
-  int thread, num_threads;
+  int thread, num_threads, warp_size;
   uint64_t block, num_blocks;
   SharedWord *shared;
   ptrdiff_t num_shared;
-  unsigned phase;  ///< grows with each barrier
+  const Phase *phases;  ///< of each warp
   void (*wait)(Emulated *);
+  void (*wait_for_warp)(Emulated *);
+  /// Numbers for the thread that differs in the bit `distance`, in exchange for its own.
+  void (*exchange)(Emulated *, double *values, int count, int distance);
   void (*fail)(const Emulated *, const char *what, ptrdiff_t word);  ///< does not return
 };
 
@@ -73,9 +82,16 @@ inline ptrdiff_t index() {
 inline void barrier() {
   emulated()->wait(emulated());
 }
+inline void warp_barrier() {
+  emulated()->wait_for_warp(emulated());
+}
+template <int count>
+inline void exchange(double *values, int distance) {
+  emulated()->exchange(emulated(), values, count, distance);
+}
 
-/// A word that is read and written as a number: what was not written is not read, and between two barriers a word that
-/// one thread writes is not used by another one.
+/// A word that is read and written as a number: what was not written is not read, and between two barriers of a block a
+/// word that one thread writes is not used by another one, unless there is a barrier of the warp that both are of.
 class SharedNumber {
  public:
   explicit SharedNumber(ptrdiff_t place) : place_(place) {
@@ -84,33 +100,54 @@ class SharedNumber {
   }
   operator double() const {
     SharedWord &word = emulated()->shared[place_];
-    const int own = emulated()->thread;
+    const int own = emulated()->thread, warp = warp_of(own);
+    const Phase now = emulated()->phases[warp];
     if (word.writer == -1) emulated()->fail(emulated(), "reads shared memory that was not written", place_);
-    if (word.writer != own && word.write_phase == emulated()->phase) {
+    if (word.writer != own && is_now(word.written, warp_of(word.writer))) {
       emulated()->fail(emulated(), "reads what another thread has written since the last barrier", place_);
     }
-    word.reader = word.read_phase == emulated()->phase && word.reader != own ? -2 : own;
-    word.read_phase = emulated()->phase;
+    if (word.reader == -1 || word.read.of_block != now.of_block) {
+      word.reader = own;
+    } else if (word.reader == -3 || word.reading_warp != warp) {
+      word.reader = -3;
+    } else if (word.reader != own && word.read.of_warp == now.of_warp) {
+      word.reader = -2;
+    } else {
+      word.reader = own;
+    }
+    word.reading_warp = warp;
+    word.read = now;
     return word.value;
   }
   const SharedNumber &operator=(double value) const {
     SharedWord &word = emulated()->shared[place_];
-    const int own = emulated()->thread;
-    if (word.writer >= 0 && word.writer != own && word.write_phase == emulated()->phase) {
+    const int own = emulated()->thread, warp = warp_of(own);
+    const Phase now = emulated()->phases[warp];
+    if (word.writer >= 0 && word.writer != own && is_now(word.written, warp_of(word.writer))) {
       emulated()->fail(emulated(), "writes what another thread has written since the last barrier", place_);
     }
-    if (word.reader != -1 && word.reader != own && word.read_phase == emulated()->phase) {
+    const bool is_read_now =
+        word.reader == -3 ? word.read.of_block == now.of_block : is_now(word.read, word.reading_warp);
+    if (word.reader != -1 && word.reader != own && is_read_now) {
       emulated()->fail(emulated(), "writes what another thread has read since the last barrier", place_);
     }
     word.value = value;
     word.writer = own;
-    word.write_phase = emulated()->phase;
+    word.written = now;
     return *this;
   }
   const SharedNumber &operator=(const SharedNumber &other) const { return *this = static_cast<double>(other); }
   const SharedNumber &operator+=(double value) const { return *this = *this + value; }
 
  private:
+  static int warp_of(int thread) { return thread / emulated()->warp_size; }
+  /// Whether no barrier lies between a thread of `warp` then and this thread now.
+  static bool is_now(const Phase &then, int warp) {
+    const int own = warp_of(emulated()->thread);
+    const Phase now = emulated()->phases[own];
+    return warp == own ? then.of_warp == now.of_warp : then.of_block == now.of_block;
+  }
+
   ptrdiff_t place_;
 };
 

@@ -1,7 +1,7 @@
 // Assembly, K[(r,m),(c,n)] = Σ_q Σ_(l,k) B_l(q,m) D(q)[value(l) + r, value(k) + c] B_k(q,n): k runs over the rows of
 // the trial functions, values and derivatives that the active inputs take, l over those of the test functions. A block
-// has the matrices D of its points in shared memory, one lane for each; threads take tiles of K and sum over the lanes
-// of an element. Before this come sides.hpp, and cells.hpp with PointLanes and PointFunctions for what is at points.
+// has the matrices D of its points in shared memory, one lane for each; workers take tiles of K and sum over the lanes
+// of an element. Before this come sides.hpp, and cells.hpp with StepLanes and PointFunctions for what is at points.
 
 namespace hg::gpu {
 
@@ -30,11 +30,13 @@ struct Matrices {
   HG_DEVICE CeedScalar read(int lane, int i, int o) const { return values[lane * size + i * num_out + o]; }
 };
 
-/// The lanes of an element of the block, one after another.
+/// The lanes of an element of the block, one after another; all threads of the block work on all elements.
 template <int num_qpts>
 struct QuadratureLanes {
   HG_DEVICE int begin(int elem) const { return elem * num_qpts; }
   HG_DEVICE int end(int elem) const { return (elem + 1) * num_qpts; }
+  HG_DEVICE static int worker() { return thread(); }
+  HG_DEVICE static int num_workers() { return threads; }
 };
 
 /// Functions of one direction, and their derivatives, at Q quadrature points in each direction.
@@ -126,7 +128,7 @@ HG_DEVICE void add_matrices(CeedScalar *entries, int count, const Lanes &lanes, 
   constexpr int trial_tiles = Trial::count / Trial::size, test_tiles = Test::count / Test::size;
   constexpr int columns = trial_tiles * trial_comps, of_element = columns * test_tiles * test_comps;
   constexpr CeedSize row = trial_comps * Trial::count, size = row * test_comps * Test::count;
-  HG_ROLLED for (int i = thread(); i < count * of_element; i += threads) {
+  HG_ROLLED for (int i = lanes.worker(); i < count * of_element; i += lanes.num_workers()) {
     const int n = i % trial_tiles, c = i / trial_tiles % trial_comps, m = i / columns % test_tiles;
     const int r = i / (columns * test_tiles) % test_comps, elem = i / of_element;
     const int begin = lanes.begin(elem), end = lanes.end(elem);
@@ -148,7 +150,7 @@ template <bool is_block, typename TestRows, typename TrialRows, typename Test, t
 HG_DEVICE void add_diagonals(const Side &side, CeedSize first, int count, const Lanes &lanes, const Matrices &matrices,
                              const TestFunctions &test_functions, const TrialFunctions &trial_functions) {
   constexpr int rows = is_block ? num_comp : 1, of_element = Test::count * num_comp * rows;
-  HG_ROLLED for (int i = thread(); i < count * of_element; i += threads) {
+  HG_ROLLED for (int i = lanes.worker(); i < count * of_element; i += lanes.num_workers()) {
     const int n = i % Test::count, c = i / Test::count % num_comp, elem = i / of_element;
     const int r = is_block ? i / (Test::count * num_comp) % rows : c;
     const int begin = lanes.begin(elem), end = lanes.end(elem);

@@ -1,9 +1,11 @@
-// Operators at points of the elements' own, as blocks of threads work on groups of cells. Before this come
-//   sides.hpp, and
-//   cells, threads    most cells, and threads, of a block
-// In shared memory are the coefficients of the group's cells; then for each point, a thread for each of them, the basis
-// functions of its coordinates and what its QFunction gives; then each thread sums what the points of a cell give to a
-// line of its nodes.
+// Operators at points of the elements' own. `cell_lanes` threads of a warp that follow each other take one cell, and in
+// a step `slots` points each. Before this come sides.hpp, and
+//   threads, warp  threads of a block, and of a warp
+//   cell_lanes     threads of a cell
+//   slots          points of a thread in a step
+// In shared memory are the coefficients of the cells. A thread has the basis functions at its points in registers, and
+// what its QFunction gives them; what the points of a cell give to its nodes is summed by exchange in the warp, which
+// leaves each lane with its share of the nodes. No thread waits for more than its warp.
 
 namespace hg::gpu {
 
@@ -56,33 +58,74 @@ struct Functions {
   }
 };
 
-/// The nodes of the cells from `first` on, `of_cell` numbers apart.
-template <typename Cell, int of_cell>
-HG_DEVICE void read_cells(const Side &side, CeedSize first, int count, SharedArray nodes) {
-  HG_ROLLED for (int i = thread(); i < count * Cell::lines * Cell::line; i += threads) {
-    const int cell = i / (Cell::lines * Cell::line), rest = i % (Cell::lines * Cell::line);
-    const int in_line = rest % Cell::line,
-              n = rest / Cell::line * (Cell::count / Cell::lines) + in_line / Cell::components;
+/// A thread's cell. Lanes without one, or beyond its points, go along with the others of the warp.
+struct CellLanes {
+  CeedInt cell = 0, first = 0, end = 0;  ///< its points
+  CeedInt num_steps = 0;                 ///< that the warp takes
+
+  HG_DEVICE CellLanes(const OperatorFacts &facts) {
+    const CeedInt *const starts = facts.points.offsets;
+    const CeedSize own = block() * (threads / cell_lanes) + thread() / cell_lanes,
+                   of_warp = own / (warp / cell_lanes) * (warp / cell_lanes);
+    if (of_warp >= facts.num_cells) return;
+    const CeedInt most = facts.cells[of_warp];
+    num_steps = (starts[most + 1] - starts[most] + cell_lanes * slots - 1) / (cell_lanes * slots);
+    if (own >= facts.num_cells) return;
+    cell = facts.cells[own];
+    first = starts[cell];
+    end = starts[cell + 1];
+  }
+  HG_DEVICE static int lane() { return thread() % cell_lanes; }
+  /// The point of a slot, and whether there is one.
+  HG_DEVICE CeedInt point(CeedInt step, int slot) const { return first + (step * slots + slot) * cell_lanes + lane(); }
+  HG_DEVICE bool has(CeedInt point) const { return point < end; }
+};
+
+/// The lanes of a block that have points of a cell in this step, one each, for what all lanes of the cell take part in.
+struct StepLanes {
+  int first, count;
+
+  HG_DEVICE StepLanes(const CellLanes &at, CeedInt step) : first(thread() / cell_lanes * cell_lanes) {
+    const CeedInt left = at.end - at.first - step * cell_lanes;
+    count = left < cell_lanes ? left : cell_lanes;
+  }
+  HG_DEVICE int begin(int) const { return first; }
+  HG_DEVICE int end(int) const { return first + count; }
+  HG_DEVICE static int worker() { return CellLanes::lane(); }
+  HG_DEVICE static int num_workers() { return cell_lanes; }
+};
+
+/// The nodes of a cell, by its lanes.
+template <typename Cell>
+HG_DEVICE void read_cell(const Side &side, const CellLanes &at, SharedArray nodes) {
+  if (at.first == at.end) return;
+  for (int i = CellLanes::lane(); i < Cell::lines * Cell::line; i += cell_lanes) {
+    const int in_line = i % Cell::line, n = i / Cell::line * (Cell::count / Cell::lines) + in_line / Cell::components;
     CeedScalar value = 0;  // what fills up a line
     if (in_line < Cell::count / Cell::lines * Cell::components) {
-      value = side.values[place_of(side, first + cell, Cell::count, n, in_line % Cell::components)];
+      value = side.values[place_of(side, at.cell, Cell::count, n, in_line % Cell::components)];
     }
-    nodes[cell * of_cell + rest] = value;
+    nodes[i] = value;
   }
 }
 
-/// Values, and derivatives (direction by direction), of all components at one point; either may be left out. About
-/// P^3 + P^2 + P products for values, twice that with derivatives, for each component.
+/// Values, and derivatives (direction by direction), of all components at a thread's points; either may be left out.
+/// About P^3 + P^2 + P products for values, twice that with derivatives, for each component and point; the nodes are
+/// read once for all points.
 template <int dim, int P, int num_comp, bool with_values, bool with_derivatives>
-HG_DEVICE void evaluate_point(const Functions<dim, P> &at, SharedArray nodes, CeedScalar *values,
-                              CeedScalar *derivatives) {
+HG_DEVICE void evaluate_points(const Functions<dim, P> *at, SharedArray nodes, CeedScalar (*values)[num_comp],
+                               CeedScalar (*derivatives)[dim * num_comp]) {
   using Nodes = Cell<dim, P, num_comp>;
   constexpr int P_y = dim > 1 ? P : 1, P_z = dim > 2 ? P : 1, nc = num_comp, last = dim - 1, second = dim > 1;
-  CeedScalar sums[4][nc];  // values, and derivatives along x, y and z
-  HG_UNROLL for (int c = 0; c < nc; c++) sums[0][c] = sums[1][c] = sums[2][c] = sums[3][c] = 0;
+  CeedScalar sums[slots][4][nc];  // values, and derivatives along x, y and z
+  HG_UNROLL for (int s = 0; s < slots; s++) {
+    HG_UNROLL for (int c = 0; c < nc; c++) sums[s][0][c] = sums[s][1][c] = sums[s][2][c] = sums[s][3][c] = 0;
+  }
   HG_UNROLL for (int z = 0; z < P_z; z++) {
-    CeedScalar plane[3][nc];
-    HG_UNROLL for (int c = 0; c < nc; c++) plane[0][c] = plane[1][c] = plane[2][c] = 0;
+    CeedScalar plane[slots][3][nc];
+    HG_UNROLL for (int s = 0; s < slots; s++) {
+      HG_UNROLL for (int c = 0; c < nc; c++) plane[s][0][c] = plane[s][1][c] = plane[s][2][c] = 0;
+    }
     HG_UNROLL for (int y = 0; y < P_y; y++) {
       CeedScalar u[Nodes::line];
       HG_UNROLL for (int i = 0; i < Nodes::line; i += 2) {
@@ -90,29 +133,35 @@ HG_DEVICE void evaluate_point(const Functions<dim, P> &at, SharedArray nodes, Ce
         u[i] = two.first;
         u[i + 1] = two.second;
       }
-      HG_UNROLL for (int c = 0; c < nc; c++) {
-        CeedScalar value = 0, slope = 0;
-        HG_UNROLL for (int x = 0; x < P; x++) {
-          value += at.value[0][x] * u[x * nc + c];
-          if (with_derivatives) slope += at.derivative[0][x] * u[x * nc + c];
+      HG_UNROLL for (int s = 0; s < slots; s++) {
+        HG_UNROLL for (int c = 0; c < nc; c++) {
+          CeedScalar value = 0, slope = 0;
+          HG_UNROLL for (int x = 0; x < P; x++) {
+            value += at[s].value[0][x] * u[x * nc + c];
+            if (with_derivatives) slope += at[s].derivative[0][x] * u[x * nc + c];
+          }
+          plane[s][0][c] += dim > 1 ? at[s].value[second][y] * value : value;
+          if (with_derivatives) plane[s][1][c] += dim > 1 ? at[s].value[second][y] * slope : slope;
+          if (with_derivatives && dim > 1) plane[s][2][c] += at[s].derivative[second][y] * value;
         }
-        plane[0][c] += dim > 1 ? at.value[second][y] * value : value;
-        if (with_derivatives) plane[1][c] += dim > 1 ? at.value[second][y] * slope : slope;
-        if (with_derivatives && dim > 1) plane[2][c] += at.derivative[second][y] * value;
       }
     }
-    HG_UNROLL for (int c = 0; c < nc; c++) {
-      HG_UNROLL for (int g = 0; g < 3; g++) {
-        if (g > 0 && (!with_derivatives || g > dim)) continue;
-        sums[g][c] += dim > 2 ? at.value[last][z] * plane[g][c] : plane[g][c];
+    HG_UNROLL for (int s = 0; s < slots; s++) {
+      HG_UNROLL for (int c = 0; c < nc; c++) {
+        HG_UNROLL for (int g = 0; g < 3; g++) {
+          if (g > 0 && (!with_derivatives || g > dim)) continue;
+          sums[s][g][c] += dim > 2 ? at[s].value[last][z] * plane[s][g][c] : plane[s][g][c];
+        }
+        if (with_derivatives && dim > 2) sums[s][3][c] += at[s].derivative[last][z] * plane[s][0][c];
       }
-      if (with_derivatives && dim > 2) sums[3][c] += at.derivative[last][z] * plane[0][c];
     }
   }
-  HG_UNROLL for (int c = 0; c < nc; c++) {
-    if (with_values) values[c] = sums[0][c];
-    HG_UNROLL for (int g = 0; g < dim; g++) {
-      if (with_derivatives) derivatives[g * nc + c] = sums[1 + g][c];
+  HG_UNROLL for (int s = 0; s < slots; s++) {
+    HG_UNROLL for (int c = 0; c < nc; c++) {
+      if (with_values) values[s][c] = sums[s][0][c];
+      HG_UNROLL for (int g = 0; g < dim; g++) {
+        if (with_derivatives) derivatives[s][g * nc + c] = sums[s][1 + g][c];
+      }
     }
   }
 }
@@ -137,35 +186,143 @@ HG_DEVICE void write_point(const Side &side, CeedSize point, const CeedScalar *v
   }
 }
 
-/// What a QFunction gives for a point, to shared memory; and back.
-template <int size>
-HG_DEVICE void write_flux(const CeedScalar *values, SharedArray array, int lane) {
-  HG_UNROLL for (int i = 0; i < size; i += 2) {
-    write_pair(array, lane * odd_pairs(size) + i, {values[i], i + 1 < size ? values[i + 1] : 0});
-  }
-}
-template <int size>
-HG_DEVICE void read_flux(SharedArray array, int lane, CeedScalar *values) {
-  HG_UNROLL for (int i = 0; i < size; i += 2) {
-    const Pair two = read_pair(array, lane * odd_pairs(size) + i);
-    values[i] = two.first;
-    if (i + 1 < size) values[i + 1] = two.second;
-  }
+/// A thread's point; anywhere where it has none.
+template <int dim>
+HG_DEVICE void read_coordinates(const Side &side, const CellLanes &at, CeedInt point, CeedScalar *x) {
+  HG_UNROLL for (int d = 0; d < dim; d++) x[d] = 0;
+  if (at.has(point)) read_point<dim>(side, point, x);
 }
 
-/// The lanes of a cell: those of its points, starts[cell] to starts[cell + 1], that are among the `threads` points from
-/// `first` on.
-struct PointLanes {
-  const CeedInt *starts;
-  CeedInt first;
+/// A lane's share of N numbers, of which each lane of a group has a part to be summed: halves are exchanged, then
+/// quarters, ...
+template <int N, int group>
+struct Share {
+  static constexpr int half = (N + 1) / 2;
+  using Rest = Share<half, group / 2>;
+  static constexpr int size = Rest::size;
 
-  HG_DEVICE int begin(int cell) const { return starts[cell] > first ? starts[cell] - first : 0; }
-  HG_DEVICE int end(int cell) const {
-    const CeedInt end = starts[cell + 1] - first;
-    return end < threads ? end : threads;
+  HG_DEVICE static bool is_upper() { return (thread() & group / 2) != 0; }
+  /// The first `size` values become those of the share; (N - size) numbers are exchanged, or a few more.
+  HG_DEVICE static void sum(CeedScalar *values) {
+    CeedScalar other[half];
+    HG_UNROLL for (int i = 0; i < half; i++) {
+      const CeedScalar upper = half + i < N ? values[half + i] : 0;
+      other[i] = is_upper() ? values[i] : upper;
+      values[i] = is_upper() ? upper : values[i];
+    }
+    exchange<half>(other, group / 2);
+    HG_UNROLL for (int i = 0; i < half; i++) values[i] += other[i];
+    Rest::sum(values);
+  }
+  /// Which numbers these are: `count` from `first` on.
+  HG_DEVICE static void find(int &first, int &count) {
+    if (is_upper()) first += half;
+    const int upper = count > half ? count - half : 0;
+    count = is_upper() ? upper : count - upper;
+    Rest::find(first, count);
   }
 };
-/// What Functions::write() has left for the points: function n of direction d, and its derivative.
+template <int N>
+struct Share<N, 1> {
+  static constexpr int size = N;
+  HG_DEVICE static void sum(CeedScalar *) {}
+  HG_DEVICE static void find(int &, int &) {}
+};
+
+/// Sums over the points of a cell, B^T values + G^T derivatives at its nodes: of so many lines of nodes at a time, a
+/// share for each lane, over all steps; in registers, or in shared memory, in a column for each thread.
+template <int dim, int P, int num_comp, int lines, bool is_in_shared>
+struct CellSums {
+  using Nodes = Cell<dim, P, num_comp>;
+  static constexpr int nc = num_comp, P_y = dim > 1 ? P : 1, P_z = dim > 2 ? P : 1, last = dim - 1, second = dim > 1;
+  static constexpr int parts = P_y / lines, size = lines * P * nc;  ///< of a plane, and numbers of a part
+  using OfLane = Share<size, cell_lanes>;
+  static constexpr int count = P_z * parts * OfLane::size;
+
+  CeedScalar own[is_in_shared ? 1 : count];
+  SharedArray columns;
+
+  HG_DEVICE explicit CellSums(SharedArray columns) : columns(columns) {
+    HG_UNROLL for (int i = 0; i < count; i++) {
+      if (is_in_shared) {
+        columns[i * threads + thread()] = 0;
+      } else {
+        own[i] = 0;
+      }
+    }
+  }
+  /// About as many products as evaluate_points() has. Points that are not there have zeros.
+  template <bool with_values, bool with_derivatives>
+  HG_DEVICE void add(const Functions<dim, P> *at, const CeedScalar (*values)[nc],
+                     const CeedScalar (*derivatives)[dim * nc]) {
+    HG_UNROLL for (int z = 0; z < P_z; z++) {
+      Plane plane[slots];
+      HG_UNROLL for (int s = 0; s < slots; s++) {
+        const CeedScalar f = dim > 2 ? at[s].value[last][z] : 1, df = dim > 2 ? at[s].derivative[last][z] : 0;
+        HG_UNROLL for (int c = 0; c < nc; c++) {
+          plane[s].value[c] = with_values ? f * values[s][c] : 0;
+          if (with_derivatives && dim > 2) plane[s].value[c] += df * derivatives[s][last * nc + c];
+          plane[s].along_x[c] = with_derivatives ? f * derivatives[s][c] : 0;
+          plane[s].along_y[c] = with_derivatives && dim > 1 ? f * derivatives[s][second * nc + c] : 0;
+        }
+      }
+      HG_UNROLL for (int part = 0; part < parts; part++) {
+        CeedScalar all[size];
+        HG_UNROLL for (int i = 0; i < size; i++) all[i] = 0;
+        HG_UNROLL for (int s = 0; s < slots; s++) {
+          HG_UNROLL for (int line = 0; line < lines; line++) {
+            add_line<with_values, with_derivatives>(at[s], plane[s], part * lines + line, all + line * P * nc);
+          }
+        }
+        OfLane::sum(all);
+        HG_UNROLL for (int i = 0; i < OfLane::size; i++) {
+          const int n = (z * parts + part) * OfLane::size + i;
+          if (is_in_shared) {
+            columns[n * threads + thread()] += all[i];
+          } else {
+            own[n] += all[i];
+          }
+        }
+      }
+    }
+  }
+  /// After all steps: to the L-vector.
+  HG_DEVICE void add_to(const Side &side, const CellLanes &cell) const {
+    if (cell.first == cell.end) return;
+    int first = 0, num = size;
+    OfLane::find(first, num);
+    HG_UNROLL for (int i = 0; i < OfLane::size; i++) {
+      if (i >= num) continue;
+      const int c = (first + i) % nc, n = (first + i) / nc;
+      HG_UNROLL for (int part = 0; part < P_z * parts; part++) {
+        const int at = part * OfLane::size + i;
+        const CeedScalar sum = is_in_shared ? CeedScalar(columns[at * threads + thread()]) : own[is_in_shared ? 0 : at];
+        atomic_add(&side.values[place_of(side, cell.cell, Nodes::count, part * lines * P + n, c)], sum);
+      }
+    }
+  }
+
+ private:
+  /// What functions along x, or their derivatives, and derivatives along y are multiplied with in a plane of nodes.
+  struct Plane {
+    CeedScalar value[nc], along_x[nc], along_y[nc];
+  };
+  template <bool with_values, bool with_derivatives>
+  HG_DEVICE static void add_line(const Functions<dim, P> &at, const Plane &plane, int y, CeedScalar *line) {
+    const CeedScalar f = dim > 1 ? at.value[second][y] : 1, df = dim > 1 ? at.derivative[second][y] : 0;
+    HG_UNROLL for (int c = 0; c < nc; c++) {
+      CeedScalar value = with_values || dim > 2 ? f * plane.value[c] : 0;
+      if (with_derivatives && dim > 1) value += df * plane.along_y[c];
+      const CeedScalar slope = with_derivatives ? f * plane.along_x[c] : 0;
+      HG_UNROLL for (int x = 0; x < P; x++) {
+        if (with_values || dim > 1) line[x * nc + c] += at.value[0][x] * value;
+        if (with_derivatives) line[x * nc + c] += at.derivative[0][x] * slope;
+      }
+    }
+  }
+};
+
+/// What Functions::write() has left for a block's lanes: function n of direction d, and its derivative.
 template <int dim, int P>
 struct PointFunctions {
   SharedArray functions;
@@ -174,62 +331,5 @@ struct PointFunctions {
     return read_pair(functions, lane * odd_pairs(2 * dim * P) + (d * P + n) * 2);
   }
 };
-
-/// Adds to the nodes of the cells from `first` on what points give: B^T values + G^T derivatives. A line of nodes along
-/// the last direction for each thread; for each point 2P + 3 products of each component and as many numbers from shared
-/// memory, most of them for all threads of a cell.
-template <int dim, int P, int num_comp, bool with_values, bool with_derivatives>
-HG_DEVICE void integrate_cells(const Side &side, CeedSize first, int count, const PointLanes &lanes,
-                               const PointFunctions<dim, P> &functions, SharedArray values, SharedArray derivatives) {
-  using Nodes = Cell<dim, P, num_comp>;
-  constexpr int nc = num_comp, last = dim - 1;
-  HG_ROLLED for (int i = thread(); i < count * Nodes::lines; i += threads) {
-    const int cell = i / Nodes::lines, line = i % Nodes::lines, x = line % P, y = line / P;
-    const int begin = lanes.begin(cell), end = lanes.end(cell);
-    if (begin >= end) continue;
-    CeedScalar sums[P][nc];
-    HG_UNROLL for (int n = 0; n < P; n++) {
-      HG_UNROLL for (int c = 0; c < nc; c++) sums[n][c] = 0;
-    }
-    HG_ROLLED for (int lane = begin; lane < end; lane++) {
-      CeedScalar value[nc], slope[dim * nc];
-      if (with_values) read_flux<nc>(values, lane, value);
-      if (with_derivatives) read_flux<dim * nc>(derivatives, lane, slope);
-      // Products over the directions but the last one, of values and of each derivative.
-      CeedScalar plain = 1, along_x = 1, along_y = 1;
-      if (dim > 1) {
-        const Pair f = functions(lane, 0, x);
-        plain = f.first;
-        along_x = f.second;
-      }
-      if (dim > 2) {
-        const Pair f = functions(lane, 1, y);
-        along_y = plain * f.second;
-        plain *= f.first;
-        along_x *= f.first;
-      }
-      CeedScalar times_value[nc], times_slope[nc];
-      HG_UNROLL for (int c = 0; c < nc; c++) {
-        times_value[c] = with_values ? plain * value[c] : 0;
-        if (with_derivatives && dim > 1) times_value[c] += along_x * slope[c];
-        if (with_derivatives && dim > 2) times_value[c] += along_y * slope[nc + c];
-        times_slope[c] = with_derivatives ? plain * slope[last * nc + c] : 0;
-      }
-      HG_UNROLL for (int n = 0; n < P; n++) {
-        const Pair f = functions(lane, last, n);
-        HG_UNROLL for (int c = 0; c < nc; c++) {
-          if (with_values || dim > 1) sums[n][c] += f.first * times_value[c];
-          if (with_derivatives) sums[n][c] += f.second * times_slope[c];
-        }
-      }
-    }
-    HG_UNROLL for (int n = 0; n < P; n++) {
-      const CeedSize place = place_of(side, first + cell, Nodes::count, n * Nodes::lines + line, 0);
-      HG_UNROLL for (int c = 0; c < nc; c++) {
-        atomic_add(&side.values[place + c * side.comp_stride], sums[n][c]);
-      }
-    }
-  }
-}
 
 }  // namespace hg::gpu

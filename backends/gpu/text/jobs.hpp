@@ -101,8 +101,8 @@ struct OperatorFacts {
   void *context = nullptr;
   int *failed = nullptr;            ///< see QFunctionJob
   Side points{};                    ///< at points: coordinates
-  const CeedInt *groups = nullptr;  ///< at points: block b takes the cells [groups[b], groups[b+1])
-  const CeedInt *elem = nullptr;    ///< at points: the cell of each one
+  const CeedInt *cells = nullptr;   ///< at points: those that have any; the first of a warp has most steps
+  CeedSize num_cells = 0;           ///< of them
   CeedScalar *entries = nullptr;    ///< assembly: what is written
 };
 template <int num_sources, int num_sinks, int num_numbers>

@@ -50,6 +50,27 @@ __device__ inline ptrdiff_t index() {
 __device__ inline void barrier() {
   __syncthreads();
 }
+/// Waits for the threads of the warp, with what they have written to shared memory.
+__device__ inline void warp_barrier() {
+#ifdef __CUDACC_RTC__
+  __syncwarp();
+#else
+  __builtin_amdgcn_fence(__ATOMIC_RELEASE, "wavefront");
+  __builtin_amdgcn_wave_barrier();
+  __builtin_amdgcn_fence(__ATOMIC_ACQUIRE, "wavefront");
+#endif
+}
+/// Numbers for those of the thread whose number differs in the bit `distance`; all threads of a warp come here.
+template <int count>
+__device__ inline void exchange(double *values, int distance) {
+  HG_UNROLL for (int i = 0; i < count; i++) {
+#ifdef __CUDACC_RTC__
+    values[i] = __shfl_xor_sync(0xffffffff, values[i], distance);
+#else
+    values[i] = __shfl_xor(values[i], distance);
+#endif
+  }
+}
 using SharedArray = double *;
 /// Two numbers of shared memory from an even place on.
 struct alignas(16) Pair {
