@@ -40,7 +40,12 @@ struct Running {
   std::vector<gpu::Phase> phases;  ///< of each warp
   std::vector<Offer> offers[2];    ///< of each thread, in this exchange and in the one before it
 
-  gpu::Phase &phase() { return phases[state.thread / state.warp_size]; }
+  gpu::Phase &phase() { return phases[state.warp]; }
+  /// Which thread runs from now on.
+  void is(int thread) {
+    state.thread = thread;
+    state.warp = thread / state.warp_size;
+  }
 };
 thread_local Running *running = nullptr;
 
@@ -85,7 +90,7 @@ void wait_as(Emulated *state, void (Fibers::*wait)()) {
   }
   const int own = state->thread;
   (running->fibers->*wait)();
-  state->thread = own;
+  running->is(own);
 }
 void wait(Emulated *state) {
   wait_as(state, &Fibers::wait);
@@ -97,7 +102,7 @@ void wait_for_warp(Emulated *state) {
 /// No thread is two exchanges ahead of another one of its warp: offers alternate between two places.
 void exchange(Emulated *state, double *values, int count, int distance) {
   const int own = state->thread, other = own ^ distance;
-  if (other >= state->num_threads || other / state->warp_size != own / state->warp_size) {
+  if (other >= state->num_threads || other / state->warp_size != state->warp) {
     throw DeviceError(name_of(state) + " exchanges values with thread " + std::to_string(other) +
                       ", which is not of its warp");
   }
@@ -204,6 +209,7 @@ void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void 
   const int warp_size = properties_.warp_size, num_warps = (launch.num_threads + warp_size - 1) / warp_size;
   Running run{.state = {.thread = 0,
                         .num_threads = launch.num_threads,
+                        .warp = 0,
                         .warp_size = warp_size,
                         .block = 0,
                         .num_blocks = launch.num_blocks,
@@ -222,7 +228,7 @@ void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void 
   for (auto &offers : run.offers) offers.resize(launch.num_threads);
   running = &run;
   const std::function<void(int)> body = [&](int thread) {
-    run.state.thread = thread;
+    run.is(thread);
     function.call(job);
   };
   const Fibers::Referee referee{.order = [&] { return order_of(launch.num_threads); },
@@ -240,6 +246,7 @@ void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void 
               SharedWord{.value = std::numeric_limits<double>::quiet_NaN(),
                          .writer = -1,
                          .reader = -1,
+                         .writing_warp = 0,
                          .reading_warp = 0,
                          .written = {},
                          .read = {}});

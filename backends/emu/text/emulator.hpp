@@ -16,13 +16,13 @@ struct Phase {
 struct SharedWord {
   double value;
   int writer, reader;  ///< a thread; -1: none, -2: several of one warp, -3: of several
-  int reading_warp;
+  int writing_warp, reading_warp;
   Phase written, read;
 };
 
 /// What a thread sees of its block.
 struct Emulated {
-  int thread, num_threads, warp_size;
+  int thread, num_threads, warp, warp_size;
   uint64_t block, num_blocks;
   SharedWord *shared;
   ptrdiff_t num_shared;
@@ -51,7 +51,7 @@ struct Emulated {
 #define HG_KERNEL_OF(name, Job, most, blocks) HG_KERNEL(name, Job)
 #define HG_UNROLL
 #define HG_ROLLED
-#define HG_SHARED(name) const hg::gpu::Shared name(0)
+#define HG_SHARED(name) const hg::gpu::Shared name(hg::gpu::emulated(), 0)
 
 namespace hg::gpu {
 
@@ -94,17 +94,16 @@ inline void exchange(double *values, int distance) {
 /// word that one thread writes is not used by another one, unless there is a barrier of the warp that both are of.
 class SharedNumber {
  public:
-  explicit SharedNumber(ptrdiff_t place) : place_(place) {
-    if (place < 0 || place >= emulated()->num_shared)
-      emulated()->fail(emulated(), "is outside of shared memory", place);
+  SharedNumber(Emulated *state, ptrdiff_t place) : state_(state), place_(place) {
+    if (place < 0 || place >= state->num_shared) state->fail(state, "is outside of shared memory", place);
   }
   operator double() const {
-    SharedWord &word = emulated()->shared[place_];
-    const int own = emulated()->thread, warp = warp_of(own);
-    const Phase now = emulated()->phases[warp];
-    if (word.writer == -1) emulated()->fail(emulated(), "reads shared memory that was not written", place_);
-    if (word.writer != own && is_now(word.written, warp_of(word.writer))) {
-      emulated()->fail(emulated(), "reads what another thread has written since the last barrier", place_);
+    SharedWord &word = state_->shared[place_];
+    const int own = state_->thread, warp = state_->warp;
+    const Phase now = state_->phases[warp];
+    if (word.writer == -1) fail("reads shared memory that was not written");
+    if (word.writer != own && is_now(word.written, word.writing_warp)) {
+      fail("reads what another thread has written since the last barrier");
     }
     if (word.reader == -1 || word.read.of_block != now.of_block) {
       word.reader = own;
@@ -120,19 +119,20 @@ class SharedNumber {
     return word.value;
   }
   const SharedNumber &operator=(double value) const {
-    SharedWord &word = emulated()->shared[place_];
-    const int own = emulated()->thread, warp = warp_of(own);
-    const Phase now = emulated()->phases[warp];
-    if (word.writer >= 0 && word.writer != own && is_now(word.written, warp_of(word.writer))) {
-      emulated()->fail(emulated(), "writes what another thread has written since the last barrier", place_);
+    SharedWord &word = state_->shared[place_];
+    const int own = state_->thread, warp = state_->warp;
+    const Phase now = state_->phases[warp];
+    if (word.writer >= 0 && word.writer != own && is_now(word.written, word.writing_warp)) {
+      fail("writes what another thread has written since the last barrier");
     }
     const bool is_read_now =
         word.reader == -3 ? word.read.of_block == now.of_block : is_now(word.read, word.reading_warp);
     if (word.reader != -1 && word.reader != own && is_read_now) {
-      emulated()->fail(emulated(), "writes what another thread has read since the last barrier", place_);
+      fail("writes what another thread has read since the last barrier");
     }
     word.value = value;
     word.writer = own;
+    word.writing_warp = warp;
     word.written = now;
     return *this;
   }
@@ -140,25 +140,26 @@ class SharedNumber {
   const SharedNumber &operator+=(double value) const { return *this = *this + value; }
 
  private:
-  static int warp_of(int thread) { return thread / emulated()->warp_size; }
   /// Whether no barrier lies between a thread of `warp` then and this thread now.
-  static bool is_now(const Phase &then, int warp) {
-    const int own = warp_of(emulated()->thread);
-    const Phase now = emulated()->phases[own];
-    return warp == own ? then.of_warp == now.of_warp : then.of_block == now.of_block;
+  bool is_now(const Phase &then, int warp) const {
+    const Phase &now = state_->phases[state_->warp];
+    return warp == state_->warp ? then.of_warp == now.of_warp : then.of_block == now.of_block;
   }
+  void fail(const char *what) const { state_->fail(state_, what, place_); }
 
+  Emulated *state_;
   ptrdiff_t place_;
 };
 
 /// Shared memory from a word on: a pointer, but for the checks.
 class Shared {
  public:
-  explicit Shared(ptrdiff_t first) : first_(first) {}
-  SharedNumber operator[](ptrdiff_t i) const { return SharedNumber(first_ + i); }
-  Shared operator+(ptrdiff_t i) const { return Shared(first_ + i); }
+  Shared(Emulated *state, ptrdiff_t first) : state_(state), first_(first) {}
+  SharedNumber operator[](ptrdiff_t i) const { return SharedNumber(state_, first_ + i); }
+  Shared operator+(ptrdiff_t i) const { return Shared(state_, first_ + i); }
 
  private:
+  Emulated *state_;
   ptrdiff_t first_;
 };
 using SharedArray = Shared;
