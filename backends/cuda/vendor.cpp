@@ -19,6 +19,13 @@ constexpr const char *driver_names[] = {
 constexpr const char *compiler_names[] = {"nvrtcVersion",           "nvrtcCreateProgram",  "nvrtcCompileProgram",
                                           "nvrtcGetProgramLogSize", "nvrtcGetProgramLog",  "nvrtcGetCUBINSize",
                                           "nvrtcGetCUBIN",          "nvrtcDestroyProgram", "nvrtcGetErrorString"};
+constexpr const char *graph_names[] = {"cuGraphCreate",
+                                       "cuGraphAddKernelNode",
+                                       "cuGraphInstantiateWithFlags",
+                                       "cuGraphExecKernelNodeSetParams",
+                                       "cuGraphLaunch",
+                                       "cuGraphExecDestroy",
+                                       "cuGraphDestroy"};
 
 std::string error(const gpu::VendorLibrary &driver, int code) {
   const auto text_of = reinterpret_cast<int (*)(int, const char **)>(driver.symbol("cuGetErrorString"));
@@ -65,6 +72,7 @@ const gpu::Vendor vendor{
     .compiler_files = compiler_files,
     .driver_names = driver_names,
     .compiler_names = compiler_names,
+    .graph_names = graph_names,
     .attributes = {.max_threads = 1, .shared_per_block = 97, .warp_size = 10, .num_processors = 16},
     .error = error,
     .current = current,

@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace hg::gpu {
 
@@ -46,6 +48,20 @@ struct Launch {
   int num_threads;               ///< of a block
   std::size_t shared_bytes = 0;  ///< of a block
   bool has_barriers = false;     ///< whether threads wait for each other
+};
+
+/// A kernel to be called with its one argument, the bytes of a struct of text/jobs.hpp.
+struct Call {
+  Kernel kernel;
+  Launch launch;
+  std::vector<std::byte> job;
+};
+
+/// Calls that do not depend on each other, and are made again and again, with kernels and jobs that seldom change.
+class Calls {
+ public:
+  virtual ~Calls() = default;
+  virtual void launch(std::span<const Call> calls) = 0;
 };
 
 /// One device. All work is done in one order, that of the calls (a stream); only copies to the host wait for it.
@@ -86,6 +102,8 @@ class Driver {
   virtual std::unique_ptr<Module> compile(const std::string &name, const std::string &text) = 0;
   /// Calls a kernel with its one argument, a struct of text/jobs.hpp, which is copied.
   virtual void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) = 0;
+  /// The driver is there as long as these are. Here: one after another.
+  virtual std::unique_ptr<Calls> make_calls();
 
  private:
   virtual void to_device(void *to, const void *from, std::size_t bytes) = 0;
@@ -93,5 +111,16 @@ class Driver {
 
   std::atomic<CeedSize> num_to_device_ = 0, bytes_to_device_ = 0, num_to_host_ = 0, bytes_to_host_ = 0;
 };
+
+inline std::unique_ptr<Calls> Driver::make_calls() {
+  struct OneByOne : Calls {
+    explicit OneByOne(Driver &driver) : driver(driver) {}
+    void launch(std::span<const Call> calls) override {
+      for (const Call &call : calls) driver.launch(call.kernel, call.launch, call.job.data(), call.job.size());
+    }
+    Driver &driver;
+  };
+  return std::make_unique<OneByOne>(*this);
+}
 
 }  // namespace hg::gpu

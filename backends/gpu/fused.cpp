@@ -33,8 +33,7 @@ class JobBytes {
     bytes_.insert(bytes_.end(), from, from + count * sizeof(T));
     if (count == 0) bytes_.resize(bytes_.size() + sizeof(T));  // arrays have at least one entry
   }
-  const void *data() const { return bytes_.data(); }
-  std::size_t size() const { return bytes_.size(); }
+  std::vector<std::byte> take() { return std::move(bytes_); }
 
  private:
   std::vector<std::byte> bytes_;
@@ -142,7 +141,7 @@ void FusedOperator::list_nodes(const CeedProgram &program) {
   if (program.at_points) list(program.points_rstr);
 }
 
-void FusedOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+Call FusedOperator::call_of(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
   host::ProgramArrays arrays(program, in, out, mode, program.at_points, CEED_MEM_DEVICE);
   std::vector<Side> sinks;
   for (CeedInt t = 0; t < program.num_sinks; t++) {
@@ -150,8 +149,13 @@ void FusedOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVec
     const bool is_own = map_of(program.sinks[t].rstr).is_copy && is_alone(program, t);
     sinks.back().access = arrays.is_set(t) ? Side::set : is_own ? Side::add_own : Side::add_shared;
   }
-  launch(program, arrays, sinks, nullptr);
+  Call call = call_of(program, arrays, sinks, nullptr);
   arrays.release();
+  return call;
+}
+
+void FusedOperator::apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
+  launch(call_of(program, in, out, mode), program);
 }
 
 void FusedOperator::assemble(const CeedProgram &program, CeedSize offset, CeedVector values) {
@@ -162,13 +166,25 @@ void FusedOperator::assemble(const CeedProgram &program, CeedSize offset, CeedVe
   for (CeedInt t = 0; t < program.num_sinks; t++) {
     sinks.push_back(side_of(program.sinks[t].rstr, is_diagonal(purpose_) ? entries.data() : nullptr));
   }
-  launch(program, arrays, sinks, entries.data() + offset);
+  launch(call_of(program, arrays, sinks, entries.data() + offset), program);
   entries.release();
   arrays.release();
 }
 
-void FusedOperator::launch(const CeedProgram &program, const host::ProgramArrays &arrays,
-                           const std::vector<Side> &sinks, CeedScalar *entries) {
+void FusedOperator::launch(const Call &call, const CeedProgram &program) {
+  const auto one_thread = device_.lock();
+  if (call.launch.num_blocks > 0) {
+    device_.driver().launch(call.kernel, call.launch, call.job.data(), call.job.size());
+  }
+  check(program);
+}
+
+void FusedOperator::check(const CeedProgram &program) {
+  host::check_returned(program, state_.returned(), 0, program.num_elem);
+}
+
+Call FusedOperator::call_of(const CeedProgram &program, const host::ProgramArrays &arrays,
+                            const std::vector<Side> &sinks, CeedScalar *entries) {
   list_nodes(program);
   std::vector<Side> sources;
   for (CeedInt s = 0; s < program.num_sources; s++) {
@@ -198,8 +214,7 @@ void FusedOperator::launch(const CeedProgram &program, const host::ProgramArrays
                       .num_threads = text_.num_threads,
                       .shared_bytes = text_.shared_bytes,
                       .has_barriers = program.at_points ? !is_by_points : text_.shared_bytes > 0};
-  if (num_blocks > 0) device_.driver().launch(kernel_, launch, job.data(), job.size());
-  host::check_returned(program, state_.returned(), 0, program.num_elem);
+  return {.kernel = kernel_, .launch = launch, .job = job.take()};
 }
 
 }  // namespace hg::gpu

@@ -27,6 +27,10 @@ class FusedOperator {
   /// Brings to the device what it works with beside vectors, where that is not there.
   void prepare(const CeedProgram &program);
   void apply_add(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  /// What apply_add() would call, for who calls several at once, and then check()s each.
+  Call call_of(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  /// Throws where the QFunction has failed since.
+  void check(const CeedProgram &program);
   /// What it was made for, to values[offset] and beyond: matrices of QFunctions are written, all else is added.
   void assemble(const CeedProgram &program, CeedSize offset, CeedVector values);
   std::size_t num_bytes() const { return sizeof *this + tables_.num_bytes() + cells_.num_bytes(); }
@@ -36,8 +40,9 @@ class FusedOperator {
                 Purpose purpose);
   void list_cells(const CeedProgram &program);
   void list_nodes(const CeedProgram &program);
-  void launch(const CeedProgram &program, const host::ProgramArrays &arrays, const std::vector<Side> &sinks,
-              CeedScalar *entries);
+  Call call_of(const CeedProgram &program, const host::ProgramArrays &arrays, const std::vector<Side> &sinks,
+               CeedScalar *entries);
+  void launch(const Call &call, const CeedProgram &program);
 
   Device &device_;
   Purpose purpose_;

@@ -1,7 +1,9 @@
 /// The tables of operators: in stages, or as one kernel where that is possible.
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "../host/access.hpp"
 #include "../jit/compiler.hpp"
@@ -17,6 +19,7 @@ namespace {
 
 /// What an operator keeps once it was used.
 struct Kept {
+  std::unique_ptr<Calls> parts;  ///< of a composite
   std::unique_ptr<StagedOperator> staged;
   std::map<Purpose, std::unique_ptr<FusedOperator>> fused;  ///< that were tried; NULL: it is not taken
   bool core_contracts = false;                              ///< an assembly was left to it, which begins now
@@ -127,6 +130,42 @@ int apply_add_fused(CeedOperator op, const CeedProgram *program, CeedVector in, 
   });
 }
 
+/// Whether a program may be applied while others add to the same entries.
+bool adds_atomically(const CeedProgram &program) {
+  return std::all_of(program.outputs, program.outputs + program.num_outputs, is_evaluated);
+}
+
+/// Parts that are one kernel each are launched as one. Those that are not come first, so that no array changes its
+/// place or is copied between the making of a call and its launch.
+int apply_add_parts(CeedOperator composite, CeedInt num_parts, const CeedOperator *parts,
+                    const CeedProgram *const *programs, CeedVector in, CeedVector out) {
+  const Ceed ceed = CeedOperatorReturnCeed(composite);
+  return wall(ceed, [&] {
+    std::vector<std::pair<FusedOperator *, const CeedProgram *>> joined;
+    for (CeedInt i = 0; i < num_parts; i++) {
+      FusedOperator *fused = fused_of(parts[i], *programs[i], Purpose::apply);
+      if (fused == nullptr) {
+        apply_staged(parts[i], *programs[i], in, out, CEED_APPLY_ADD_ALL);
+      } else if (adds_atomically(*programs[i])) {
+        joined.emplace_back(fused, programs[i]);
+      } else {
+        fused->apply_add(*programs[i], in, out, CEED_APPLY_ADD_ALL);
+      }
+    }
+    std::vector<Call> calls;
+    for (const auto &[fused, program] : joined) {
+      calls.push_back(fused->call_of(*program, in, out, CEED_APPLY_ADD_ALL));
+      if (calls.back().launch.num_blocks == 0) calls.pop_back();
+    }
+    Device &device = Device::of(ceed);
+    const auto one_thread = device.lock();
+    auto &kept = own_kept_of(composite).parts;
+    if (kept == nullptr) kept = device.driver().make_calls();
+    if (!calls.empty()) kept->launch(calls);
+    for (const auto &[fused, program] : joined) fused->check(*program);
+  });
+}
+
 /// All elements. Where the core contracts them itself, on the host and some elements at a time, they are the
 /// reference's.
 int linear_assemble_qfunction(CeedOperator op, const CeedProgram *program, CeedInt first_elem, CeedInt num_elem,
@@ -183,6 +222,7 @@ void fill_operator_ops(CeedOperatorOps &ops, bool is_fused) {
   ops.destroy = destroy;
   ops.prepare = is_fused ? prepare_fused : prepare_in_stages;
   ops.apply_add = is_fused ? apply_add_fused : apply_add_staged;
+  if (is_fused) ops.apply_add_parts = apply_add_parts;
   if (is_fused) ops.linear_assemble_qfunction = linear_assemble_qfunction;
   if (is_fused) ops.linear_assemble = linear_assemble;
   ops.get_memory = get_memory;

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -107,13 +108,17 @@ class VendorDriver : public Driver {
   void set_stream(void *stream) override;
   std::unique_ptr<Module> compile(const std::string &name, const std::string &text) override;
   void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) override;
+  std::unique_ptr<Calls> make_calls() override;
 
  private:
   friend class VendorModule;
+  friend class VendorGraph;
   void to_device(void *to, const void *from, std::size_t bytes) override;
   void to_host(void *to, const void *from, std::size_t bytes) override;
   void check(int code, const char *what) const { check_call(vendor_, library_, code, what); }
   void make_current() const { check(vendor_.make_current(library_, handle_), "the device cannot be used"); }
+  /// Throws where a launch is beyond what the vendor's calls take.
+  void allow(Kernel kernel, const Launch &launch) const;
 
   const Vendor &vendor_;
   VendorLibrary library_;
@@ -245,7 +250,7 @@ std::unique_ptr<Module> VendorDriver::compile(const std::string &name, const std
   }
 }
 
-void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, std::size_t) {
+void VendorDriver::allow(Kernel kernel, const Launch &launch) const {
   if (launch.num_blocks > std::numeric_limits<int>::max()) {
     throw DeviceError(std::string(vendor_.name) + ": a kernel of " + std::to_string(launch.num_blocks) +
                       " blocks; at most 2147483647 are possible");
@@ -255,11 +260,88 @@ void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, 
   if (launch.shared_bytes > usual_shared) {
     check(vendor_.allow_shared(library_, kernel.handle, launch.shared_bytes), "a block cannot have its shared memory");
   }
+}
+
+void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, std::size_t) {
+  allow(kernel, launch);
   void *arguments[] = {const_cast<void *>(job)};
   check(calls_.launch(kernel.handle, static_cast<unsigned>(launch.num_blocks), 1, 1,
                       static_cast<unsigned>(launch.num_threads), 1, 1, static_cast<unsigned>(launch.shared_bytes),
                       stream_, arguments, nullptr),
         "a kernel cannot be launched");
+}
+
+/// One graph without dependencies. It is made anew where other kernels are called; where only their jobs have changed,
+/// those of its nodes are exchanged.
+class VendorGraph : public Calls {
+ public:
+  explicit VendorGraph(const VendorDriver &driver)
+      : driver_(driver), calls_(driver.library_.calls<GraphCalls>(driver.vendor_.graph_names)) {}
+  VendorGraph(const VendorGraph &) = delete;
+  VendorGraph &operator=(const VendorGraph &) = delete;
+  ~VendorGraph() override {
+    driver_.vendor_.make_current(driver_.library_, driver_.handle_);
+    destroy();
+  }
+
+  void launch(std::span<const Call> calls) override {
+    for (const Call &call : calls) driver_.allow(call.kernel, call.launch);
+    const auto is_of_kernel = [](const Call &a, const Call &b) { return a.kernel.handle == b.kernel.handle; };
+    if (!std::equal(calls.begin(), calls.end(), calls_made_.begin(), calls_made_.end(), is_of_kernel)) make(calls);
+    for (std::size_t i = 0; i < calls.size(); i++) {
+      const Call &now = calls[i], &then = calls_made_[i];
+      const bool is_the_same = now.job == then.job && now.launch.num_blocks == then.launch.num_blocks &&
+                               now.launch.num_threads == then.launch.num_threads &&
+                               now.launch.shared_bytes == then.launch.shared_bytes;
+      if (is_the_same) continue;
+      with_kernel(now, [&](const GraphKernel &kernel) {
+        driver_.check(calls_.change(executable_, nodes_[i], &kernel), "a graph's kernel cannot be changed");
+      });
+      calls_made_[i] = now;
+    }
+    driver_.check(calls_.launch(executable_, driver_.stream_), "a graph cannot be launched");
+  }
+
+ private:
+  /// The arguments are copied by who gets them.
+  template <typename F>
+  static void with_kernel(const Call &call, F &&f) {
+    void *arguments[] = {const_cast<std::byte *>(call.job.data())};
+    f(GraphKernel{.function = call.kernel.handle,
+                  .grid = {static_cast<unsigned>(call.launch.num_blocks), 1, 1},
+                  .block = {static_cast<unsigned>(call.launch.num_threads), 1, 1},
+                  .shared_bytes = static_cast<unsigned>(call.launch.shared_bytes),
+                  .arguments = arguments});
+  }
+  void make(std::span<const Call> calls) {
+    destroy();
+    driver_.check(calls_.create(&graph_, 0), "there is no graph");
+    for (const Call &call : calls) {
+      with_kernel(call, [&](const GraphKernel &kernel) {
+        driver_.check(calls_.add(&nodes_.emplace_back(), graph_, nullptr, 0, &kernel), "a graph takes no kernel");
+      });
+    }
+    driver_.check(calls_.make(&executable_, graph_, 0), "a graph cannot be made");
+    calls_made_.assign(calls.begin(), calls.end());
+  }
+  void destroy() {
+    if (executable_ != nullptr) calls_.destroy_executable(executable_);
+    if (graph_ != nullptr) calls_.destroy(graph_);
+    executable_ = graph_ = nullptr;
+    nodes_.clear();
+    calls_made_.clear();
+  }
+
+  const VendorDriver &driver_;
+  GraphCalls calls_;
+  void *graph_ = nullptr, *executable_ = nullptr;
+  std::vector<void *> nodes_;
+  std::vector<Call> calls_made_;
+};
+
+std::unique_ptr<Calls> VendorDriver::make_calls() {
+  if (vendor_.graph_names.empty()) return Driver::make_calls();
+  return std::make_unique<VendorGraph>(*this);
 }
 
 }  // namespace

@@ -54,6 +54,24 @@ struct DriverCalls {
   int (*launch)(void *function, unsigned grid_x, unsigned grid_y, unsigned grid_z, unsigned block_x, unsigned block_y,
                 unsigned block_z, unsigned shared_bytes, void *stream, void **arguments, void **extra);
 };
+/// A kernel in a graph, as both vendors' old and new versions have it (fields of newer ones follow, and are 0).
+struct GraphKernel {
+  void *function = nullptr;
+  unsigned grid[3] = {1, 1, 1}, block[3] = {1, 1, 1}, shared_bytes = 0;
+  void **arguments = nullptr, **extra = nullptr;
+  void *newer[2] = {};
+};
+/// Graphs, which run what does not depend on each other at once, and are launched as one. 0 is success.
+struct GraphCalls {
+  int (*create)(void **graph, unsigned flags);
+  int (*add)(void **node, void *graph, void *const *dependencies, std::size_t num_dependencies,
+             const GraphKernel *kernel);
+  int (*make)(void **executable, void *graph, unsigned long long flags);
+  int (*change)(void *executable, void *node, const GraphKernel *kernel);
+  int (*launch)(void *executable, void *stream);
+  int (*destroy_executable)(void *executable);
+  int (*destroy)(void *graph);
+};
 /// The same of the compiler.
 struct CompilerCalls {
   int (*version)(int *major, int *minor);
@@ -73,6 +91,7 @@ struct Vendor {
   const char *name;
   std::span<const char *const> driver_files, compiler_files;  ///< of which the first that is there is taken
   std::span<const char *const> driver_names, compiler_names;  ///< of DriverCalls and CompilerCalls
+  std::span<const char *const> graph_names;                   ///< of GraphCalls; empty: there are none
   struct {
     int max_threads, shared_per_block, warp_size, num_processors;
   } attributes;  ///< numbers of a device's properties

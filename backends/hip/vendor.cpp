@@ -52,6 +52,7 @@ const gpu::Vendor vendor{
     .compiler_files = compiler_files,
     .driver_names = driver_names,
     .compiler_names = compiler_names,
+    .graph_names = {},  // its nodes are for functions of the program, not of modules
     .attributes = {.max_threads = 56, .shared_per_block = 74, .warp_size = 87, .num_processors = 63},
     .error = error,
     .current = current,

@@ -244,6 +244,7 @@ void fill_operator_ops(CeedOperatorOps &ops) {
          .destroy = nullptr,
          .prepare = nullptr,
          .apply_add = apply_add,
+         .apply_add_parts = nullptr,
          .linear_assemble_qfunction = linear_assemble_qfunction,
          .linear_assemble = nullptr,
          .linear_assemble_elements = nullptr,

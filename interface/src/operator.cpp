@@ -56,7 +56,7 @@ void require_single(const CeedOperator_private &op) {
 }  // namespace
 
 CeedOperator_private::~CeedOperator_private() {
-  if (is_known_to_backend && ceed->ops.op.destroy != nullptr) ceed->ops.op.destroy(this);
+  if ((is_known_to_backend || is_joined) && ceed->ops.op.destroy != nullptr) ceed->ops.op.destroy(this);
 }
 
 void CeedOperator_private::view(FILE *stream, bool with_fields) const {

@@ -55,6 +55,7 @@ struct CeedOperator_private final : CeedObject_private {
   std::vector<hg::Ref<CeedOperator_private>> subs;
   std::vector<CeedOperator> sub_list;               ///< what GetSubList hands out
   std::deque<CeedContextFieldLabel_private> labels;  ///< of fields that sub-operators share
+  bool is_joined = false;  ///< the backend has applied its parts together, and may keep data for that
 
   // Assembly.
   bool reuses_assembly = false, assembly_needs_update = true;

@@ -57,6 +57,49 @@ void check_access(CeedOperator_private &op, CeedVector in, CeedVector out, bool 
   });
 }
 
+bool is_sequential(const CeedOperator_private &op) {
+  return op.is_sequential ||
+         std::any_of(op.subs.begin(), op.subs.end(), [](const auto &sub) { return is_sequential(*sub); });
+}
+
+/// Whether one of the programs reads what another one writes.
+bool depend_on_each_other(const std::vector<const CeedProgram *> &programs, CeedVector in) {
+  const auto reads = [&](const CeedProgram &program, CeedVector vec) {
+    return (program.at_points && program.points == vec) ||
+           std::any_of(program.sources, program.sources + program.num_sources,
+                       [&](const CeedProgramSide &source) { return (source.is_active ? in : source.vec) == vec; });
+  };
+  for (const CeedProgram *one : programs) {
+    for (CeedInt t = 0; t < one->num_sinks; t++) {
+      if (one->sinks[t].is_active) continue;
+      for (const CeedProgram *other : programs) {
+        if (other != one && reads(*other, one->sinks[t].vec)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// All parts of a composite at once, where the backend takes that: else false.
+bool apply_parts(CeedOperator_private &composite, CeedVector in, CeedVector out) {
+  const auto apply_add_parts = composite.ceed->ops.op.apply_add_parts;
+  if (apply_add_parts == nullptr || is_sequential(composite)) return false;
+  std::vector<CeedOperator> parts;
+  std::vector<const CeedProgram *> programs;
+  bool are_of_one_ceed = true;
+  hg::for_each_single(composite, [&](CeedOperator_private &single) {
+    const CeedProgram &program = hg::program_of(single);
+    if (program.num_elem == 0) return;
+    are_of_one_ceed = are_of_one_ceed && single.ceed.get() == composite.ceed.get();
+    parts.push_back(&single);
+    programs.push_back(&program);
+  });
+  if (!are_of_one_ceed || parts.size() < 2 || depend_on_each_other(programs, in)) return false;
+  composite.is_joined = true;
+  hg::check(apply_add_parts(&composite, static_cast<CeedInt>(parts.size()), parts.data(), programs.data(), in, out));
+  return true;
+}
+
 void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passive passive) {
   hg::check_ready(hg::deref(op, "CeedOperator"));
   if (op->is_empty()) {
@@ -79,6 +122,7 @@ void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passiv
     for (const CeedVector vec : passive_outputs(*op)) hg::check(CeedVectorSetValue(vec, 0.0));
     mode = CEED_APPLY_ADD_ALL;
   }
+  if (op->is_composite && mode == CEED_APPLY_ADD_ALL && apply_parts(*op, in, out)) return;
   hg::for_each_single(*op, [&](CeedOperator_private &single) {
     const CeedProgram &program = hg::program_of(single);
     if (program.num_elem == 0 && mode == CEED_APPLY_ADD_ALL) return;

@@ -60,6 +60,7 @@ constexpr Entry all_entries[] = {
     {"op.destroy", offsetof(CeedBackendOps, op.destroy)},
     {"op.prepare", offsetof(CeedBackendOps, op.prepare)},
     {"op.apply_add", offsetof(CeedBackendOps, op.apply_add)},
+    {"op.apply_add_parts", offsetof(CeedBackendOps, op.apply_add_parts)},
     {"op.linear_assemble_qfunction", offsetof(CeedBackendOps, op.linear_assemble_qfunction)},
     {"op.linear_assemble", offsetof(CeedBackendOps, op.linear_assemble)},
     {"op.linear_assemble_elements", offsetof(CeedBackendOps, op.linear_assemble_elements)},

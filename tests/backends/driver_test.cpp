@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <new>
 #include <string>
 #include <vector>
@@ -130,6 +133,49 @@ TEST_F(DriverTest, RefusesMoreBlocksThanAGridHas) {
   driver->launch(module->kernel("f"), {.num_blocks = most, .num_threads = 32}, &job, sizeof job);
   EXPECT_THROW(driver->launch(module->kernel("f"), {.num_blocks = most + 1, .num_threads = 32}, &job, sizeof job),
                gpu::DeviceError);
+}
+
+/// A graph is made for kernels, and kept as long as these are called; jobs may be others each time.
+TEST_F(DriverTest, LaunchesCallsAsOneGraph) {
+  const auto driver = gpu::make_driver(vendor, 1);
+  const auto module = driver->compile("nothing", "");
+  const gpu::Kernel kernel = module->kernel("f");
+  const auto call = [&](int job, std::uint64_t num_blocks) {
+    gpu::Call made{.kernel = kernel, .launch = {.num_blocks = num_blocks, .num_threads = 32}, .job = {}};
+    made.job.resize(sizeof job);
+    std::memcpy(made.job.data(), &job, sizeof job);
+    return made;
+  };
+  {
+    const auto calls = driver->make_calls();
+    calls->launch(std::vector{call(1, 5), call(2, 6)});
+    calls->launch(std::vector{call(1, 5), call(2, 6)});
+    EXPECT_EQ(fake_cuda.num_changed, 0);
+    calls->launch(std::vector{call(1, 5), call(3, 6)});
+    calls->launch(std::vector{call(1, 4), call(3, 6)});
+    EXPECT_EQ(fake_cuda.num_changed, 2);
+    EXPECT_EQ(fake_cuda.num_made, 1);
+    calls->launch(std::vector{call(7, 1)});
+    EXPECT_EQ(fake_cuda.num_made, 2);
+    EXPECT_EQ(fake_cuda.called, (std::vector<int>{1, 2, 1, 2, 1, 3, 1, 3, 7}));
+    EXPECT_EQ(fake_cuda.blocks, (std::vector<unsigned>{5, 6, 5, 6, 5, 6, 4, 6, 1}));
+    EXPECT_THROW(calls->launch(std::vector{call(7, std::uint64_t{1} << 31)}), gpu::DeviceError);
+  }
+  EXPECT_EQ(fake_cuda.num_graphs, 0);
+  EXPECT_EQ(fake_cuda.num_executables, 0);
+  EXPECT_EQ(fake_cuda.current, 1);
+}
+
+/// HIP's driver has none.
+TEST_F(DriverTest, LaunchesCallsOneByOneWithoutGraphs) {
+  vendor.graph_names = {};
+  const auto driver = gpu::make_driver(vendor, 0);
+  const auto module = driver->compile("nothing", "");
+  const gpu::Call call{
+      .kernel = module->kernel("f"), .launch = {.num_blocks = 2, .num_threads = 32}, .job = std::vector<std::byte>(4)};
+  driver->make_calls()->launch(std::vector{call, call});
+  EXPECT_EQ(fake_cuda.num_launched, 2);
+  EXPECT_EQ(fake_cuda.num_graphs, 0);
 }
 
 TEST_F(DriverTest, FindsItsCodeAgain) {

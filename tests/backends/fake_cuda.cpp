@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <vector>
 
 FakeCuda fake_cuda;
 
@@ -14,6 +15,23 @@ namespace {
 constexpr int out_of_memory = 2, invalid_value = 1, invalid_context = 201, no_binary = 209;
 constexpr int num_devices = 2;
 constexpr char compiled[] = "code";
+
+/// A node of a graph: what it was added or changed with, copied.
+struct Node {
+  int job;
+  unsigned num_blocks;
+};
+using Graph = std::vector<Node *>;
+
+/// CUDA_KERNEL_NODE_PARAMS up to its arguments.
+struct KernelNode {
+  void *function;
+  unsigned grid[3], block[3], shared_bytes;
+  void **arguments, **extra;
+};
+Node read(const KernelNode &kernel) {
+  return {*static_cast<const int *>(kernel.arguments[0]), kernel.grid[0]};
+}
 
 int copy_now(void *to, const void *from, std::size_t bytes) {
   std::memcpy(to, from, bytes);
@@ -113,6 +131,48 @@ int cuModuleGetFunction(void **function, void *module, const char *) {
 }
 int cuLaunchKernel(void *, unsigned, unsigned, unsigned, unsigned, unsigned, unsigned, unsigned, void *, void **,
                    void **) {
+  fake_cuda.num_launched++;
+  return 0;
+}
+int cuGraphCreate(void **graph, unsigned) {
+  fake_cuda.num_graphs++;
+  *graph = new Graph;
+  return 0;
+}
+int cuGraphAddKernelNode(void **node, void *graph, void *const *, std::size_t num_dependencies,
+                         const KernelNode *kernel) {
+  if (num_dependencies > 0) return invalid_value;
+  auto *added = new Node(read(*kernel));
+  static_cast<Graph *>(graph)->push_back(added);
+  *node = added;
+  return 0;
+}
+int cuGraphInstantiateWithFlags(void **executable, void *graph, unsigned long long) {
+  fake_cuda.num_executables++;
+  fake_cuda.num_made++;
+  *executable = graph;
+  return 0;
+}
+int cuGraphExecKernelNodeSetParams(void *, void *node, const KernelNode *kernel) {
+  fake_cuda.num_changed++;
+  *static_cast<Node *>(node) = read(*kernel);
+  return 0;
+}
+int cuGraphLaunch(void *executable, void *) {
+  for (const Node *node : *static_cast<Graph *>(executable)) {
+    fake_cuda.called.push_back(node->job);
+    fake_cuda.blocks.push_back(node->num_blocks);
+  }
+  return 0;
+}
+int cuGraphExecDestroy(void *) {
+  fake_cuda.num_executables--;
+  return 0;
+}
+int cuGraphDestroy(void *graph) {
+  fake_cuda.num_graphs--;
+  for (const Node *node : *static_cast<Graph *>(graph)) delete node;
+  delete static_cast<Graph *>(graph);
   return 0;
 }
 int cuFuncSetAttribute(void *, int, int) {

@@ -13,6 +13,8 @@
 #include "support/errors.hpp"
 #include "support/handles.hpp"
 #include "support/program.hpp"
+#include "support/random.hpp"
+#include "support/values.hpp"
 
 namespace {
 
@@ -62,6 +64,29 @@ TEST_P(FusedTest, AssemblesQFunctionsOnTheDevice) {
   CeedScalar norm = 0;
   ok(CeedVectorNorm(assembled, CEED_NORM_MAX, &norm));
   EXPECT_EQ(norm, 1);  // what is stored at the points is 1
+}
+
+/// The parts of a composite are launched as one, with what they were last time; their sum is that of one by one.
+TEST(Composites, AreTheSumOfTheirParts) {
+  const CeedHandle ceed{open("/gpu/emu/gen:order=shuffled")};
+  const BakeoffOperator at_quadrature(ceed, true, 3, 3, 4, 0), at_points(ceed, true, 3, 3, 4, 27);
+  Operator both;
+  ok(CeedOperatorCreateComposite(ceed, both.out()));
+  for (CeedOperator part : {CeedOperator(at_quadrature), CeedOperator(at_points), CeedOperator(at_quadrature)}) {
+    ok(CeedOperatorCompositeAddSub(both, part));
+  }
+  CeedSize length = 0;
+  ok(CeedOperatorGetActiveVectorLengths(both, &length, nullptr));
+  Random random(7);
+  for (int turn = 0; turn < 2; turn++) {
+    const Vector in = make_vector(ceed, random.reals(length)), out = make_vector(ceed, length, 3);
+    const Vector part = make_vector(ceed, length, 0), want = make_vector(ceed, length, 0);
+    ok(CeedOperatorApply(both, in, out, CEED_REQUEST_IMMEDIATE));
+    ok(CeedOperatorApply(at_quadrature, in, part, CEED_REQUEST_IMMEDIATE));
+    ok(CeedOperatorApply(at_points, in, want, CEED_REQUEST_IMMEDIATE));
+    ok(CeedVectorAXPY(want, 2, part));
+    expect_close(values_of(out), values_of(want), 1e-13, "sum");
+  }
 }
 
 /// Objects on one device are of no use on another.

@@ -14,7 +14,7 @@
 
 /// Version of this file: it grows with every change of a struct or of what an entry means. A plugin of another version
 /// is refused.
-#define CEED_PLUGIN_API_VERSION 3u
+#define CEED_PLUGIN_API_VERSION 4u
 
 #ifdef __cplusplus
 extern "C" {
@@ -192,14 +192,21 @@ typedef enum {
   CEED_ASSEMBLE_POINT_BLOCKS = 2,  ///< (r, c, n): K[(r,n),(c,n)]. The same
 } CeedAssembleKind;
 
-/// Single operators; composites are the core's. `program` is that of CeedOperatorGetProgram().
+/// Single operators; composites are the core's, but for apply_add_parts(). `program` is that of CeedOperatorGetProgram().
 typedef struct {
   int (*create)(CeedOperator op, const CeedProgram *program);  ///< optional; after lowering
-  int (*destroy)(CeedOperator op);                             ///< optional
+  int (*destroy)(CeedOperator op);  ///< optional; of a composite, where apply_add_parts() was called for it
   /// Optional: what takes time when apply_add() is first called.
   int (*prepare)(CeedOperator op, const CeedProgram *program);
   /// in, out: L-vectors, or CEED_VECTOR_NONE where the operator has no active input or output.
   int (*apply_add)(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode);
+  /// Optional: apply_add() with CEED_APPLY_ADD_ALL of the num_parts single operators of a `composite` that is not
+  /// sequential, in any order or at once: none reads what another one writes. They and the composite are of one Ceed,
+  /// and parts[i] has programs[i]. in, out: for those that have an active input or output. CeedOperatorGetData() of the
+  /// composite is NULL at first. Who replaces apply_add() replaces this one as well, if only by NULL, which stands for
+  /// one after another.
+  int (*apply_add_parts)(CeedOperator composite, CeedInt num_parts, const CeedOperator *parts,
+                         const CeedProgram *const *programs, CeedVector in, CeedVector out);
   /// The QFunction's matrix at each point of the elements [first_elem, first_elem + num_elem): num_active_in *
   /// num_active_out components, component i*num_active_out + o. At quadrature points (point, component, element), point
   /// fastest; at points one element after another, component fastest. `values` may be longer than that.
