@@ -452,12 +452,17 @@ class ElementPrinter {
       text_.num_threads = threads;
     }
     text_.shared_bytes = text_.num_elem * size;
-    // Registers for as many threads as shared memory has room for.
+    // Registers for as many threads as shared memory has room for, where lines are so long that the compiler would take
+    // more, and fewer threads; shorter ones are quicker with what it takes by itself.
     constexpr int threads_of_processor = 1024;
-    text_.num_blocks =
-        std::max(1, std::min(static_cast<int>(block_.shared_bytes / std::max<std::size_t>(text_.shared_bytes, 1)),
-                             threads_of_processor / text_.num_threads));
-    if (!assembly_.applies()) text_.num_blocks = 1;
+    constexpr CeedInt long_line = 6;
+    const bool is_long =
+        std::any_of(bases_.begin(), bases_.end(), [](const BasisFactors &basis) { return basis.P >= long_line; });
+    text_.num_blocks = 1;
+    if (is_long && assembly_.applies()) {
+      const auto most = static_cast<int>(block_.shared_bytes / std::max<std::size_t>(text_.shared_bytes, 1));
+      text_.num_blocks = std::max(1, std::min(most, threads_of_processor / text_.num_threads));
+    }
     text_.text = begin_text(program_, function_, fmt::format("elems = {}", text_.num_elem), "elements.hpp",
                             !assembly_.applies(), text_) +
                  "  HG_SHARED(shared);\n" + phases_.declarations() +
