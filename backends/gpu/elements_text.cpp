@@ -37,10 +37,11 @@ class ElementPrinter {
   OperatorText print() {
     inputs_.resize(program_.num_inputs);
     outputs_.resize(program_.num_outputs);
+    columns_of_outputs_.assign(program_.num_outputs, -1);
     gather();
+    choose_columns();
     for (Evaluation &e : evaluations_) evaluate(e);
     call_ = last_;
-    point(fmt::format("const int e = i / {0}, q = i % {0};", program_.num_qpts));
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       if (assembly_.is_read(program_.inputs[i])) take_input(i);
     }
@@ -49,10 +50,7 @@ class ElementPrinter {
     } else {
       take_columns();
     }
-    phases_.step(call_, "HG_ROLLED for (int i = thread(); i < count * " + std::to_string(program_.num_qpts) +
-                            "; i += threads) {");
-    for (const std::string &line : point_) phases_.step(call_, "  " + line);
-    phases_.step(call_, "}");
+    print_points();
     last_ = call_;
     if (assembly_.contracts()) contract_columns();
     std::vector<int> free_from(program_.num_sinks, call_ + 1);
@@ -97,6 +95,45 @@ class ElementPrinter {
   std::string grad_of(CeedInt space) { return number(bases_[space].grad_1d); }
   std::string table(const CeedScalar *values, std::size_t count) {
     return fmt::format("job.facts.tables + {}", keep(text_.tables, std::vector<CeedScalar>(values, values + count)));
+  }
+
+  /// Whether derivatives of an evaluation, or of an integration, along z are taken column by column: a quarter of the
+  /// shared memory less, and a fifth of what goes through it. With several components, or longer columns, registers
+  /// would be for half as many threads.
+  bool is_by_columns(const Evaluation &e) const {
+    const BasisFactors &basis = bases_[e.space];
+    constexpr CeedInt longest = 8;
+    return assembly_.applies() && basis.num_directions == 3 && e.derivative >= 0 && basis.num_comp == 1 &&
+           basis.Q <= longest && (basis.route == Route::identity || basis.route == Route::collocated);
+  }
+  void choose_columns() {
+    for (const auto *evaluations : {&evaluations_, &integrations_}) {
+      for (const Evaluation &e : *evaluations) {
+        if (is_by_columns(e)) column_ = bases_[e.space].Q;
+      }
+    }
+  }
+  /// Calls the QFunction at all points of the block's elements, point by point or column by column.
+  void print_points() {
+    const auto step = [&](const std::string &line) { phases_.step(call_, line); };
+    if (column_ == 0) {
+      step(fmt::format("HG_ROLLED for (int i = thread(); i < count * {}; i += threads) {{", program_.num_qpts));
+      step(fmt::format("  const int e = i / {0}, q = i % {0};", program_.num_qpts));
+      for (const std::string &line : point_) step("  " + line);
+      step("}");
+      return;
+    }
+    const CeedInt columns = column_ * column_;
+    lines_ = std::max(lines_, columns);
+    step(fmt::format("HG_ROLLED for (int i = thread(); i < count * {}; i += threads) {{", columns));
+    step(fmt::format("  const int e = i / {0}, xy = i % {0};", columns));
+    for (const std::string &line : before_column_) step("  " + line);
+    step(fmt::format("  HG_ROLLED for (int z = 0; z < {}; z++) {{", column_));
+    step(fmt::format("    const int q = xy + z * {};", columns));
+    for (const std::string &line : point_) step("    " + line);
+    step("  }");
+    for (const std::string &line : after_column_) step("  " + line);
+    step("}");
   }
 
   void gather() {
@@ -201,8 +238,11 @@ class ElementPrinter {
         }
         if (e.interp >= 0) inputs_[e.interp] = {values, points};
         if (e.derivative < 0) break;
-        const int array = derivative_array();
-        for (CeedInt g = 0; g < dim; g++) {
+        const bool by_columns = is_by_columns(e);
+        const CeedInt num_arrays = by_columns ? dim - 1 : dim;
+        const int array = new_array("derivative", points, num_arrays);
+        inputs_[e.derivative] = {array, points, by_columns ? values : -1};
+        for (CeedInt g = 0; g < num_arrays; g++) {
           phases_.step(phase, contract(g, false, false, points, points, grad_of(e.space), phases_.use(values, phase),
                                        use(array, phase, points, g)));
         }
@@ -261,8 +301,17 @@ class ElementPrinter {
       case Route::collocated: {
         int phase = start, values = -1;
         bool has_values = false;
-        const bool is_identity = basis.route == Route::identity;
-        if (is_identity && add) {
+        const bool is_identity = basis.route == Route::identity, by_columns = is_by_columns(e);
+        if (by_columns) {
+          // What columns have left is there already, and all else is added to it.
+          values = columns_of_outputs_[e.derivative];
+          has_values = true;
+          if (e.interp >= 0) {
+            phases_.step(phase, fmt::format("add_array<{}>(count, {}, {});", points.type(), output(e.interp, phase),
+                                            phases_.use(values, phase)));
+            phase++;
+          }
+        } else if (is_identity && add) {
           values = sums_[e.side];
           phase = std::max(phase, sum_free_from);
           has_values = true;
@@ -277,13 +326,18 @@ class ElementPrinter {
         } else {
           values = new_array("back", points);
         }
-        for (CeedInt g = 0; e.derivative >= 0 && g < dim; g++, phase++) {
+        for (CeedInt g = 0; e.derivative >= 0 && g < (by_columns ? dim - 1 : dim); g++, phase++) {
           phases_.step(phase, contract(g, true, has_values, points, points, grad_of(e.space),
                                        output(e.derivative, phase, g), phases_.use(values, phase)));
           has_values = true;
         }
         end = phase;
-        if (is_identity) {
+        if (is_identity && by_columns && add) {
+          phase = std::max(phase, sum_free_from);
+          phases_.step(phase, fmt::format("add_array<{}>(count, {}, {});", points.type(), phases_.use(values, phase),
+                                          phases_.use(sums_[e.side], phase)));
+          end = phase + 1;
+        } else if (is_identity) {
           sums_[e.side] = values;
         } else {
           if (!add) sums_[e.side] = new_array("sum", nodes);
@@ -344,8 +398,15 @@ class ElementPrinter {
                         program_.num_qpts, field.side, i));
     } else {
       const Values &values = inputs_[evaluation_of(evaluations_, field, true).array_of(field)];
-      point(fmt::format("read_values<{}, {}>({}, e, q, in{});", field.size / values.shape.num_comp, values.shape.type(),
+      const CeedInt num_comp = values.shape.num_comp, num_arrays = field.size / num_comp - (values.column >= 0 ? 1 : 0);
+      point(fmt::format("read_values<{}, {}>({}, e, q, in{});", num_arrays, values.shape.type(),
                         phases_.use(values.array, call_), i));
+      if (values.column < 0) return;
+      before_column_.push_back(fmt::format("CeedScalar column{}[{}];", i, column_ * num_comp));
+      before_column_.push_back(fmt::format("read_column<{}>({}, e, xy, column{});", values.shape.type(),
+                                           phases_.use(values.column, call_), i));
+      point(fmt::format("derive_column<{}, {}>({}, column{}, z, in{} + {});", column_, num_comp, grad_of(field.space),
+                        i, i, num_arrays * num_comp));
     }
   }
 
@@ -363,11 +424,21 @@ class ElementPrinter {
       return;
     }
     const Shape points = points_of(field.space);
-    const CeedInt count = field.size / points.num_comp;
+    const bool by_columns = std::any_of(integrations_.begin(), integrations_.end(),
+                                        [&](const Evaluation &e) { return e.derivative == o && is_by_columns(e); });
+    const CeedInt count = field.size / points.num_comp - (by_columns ? 1 : 0);
     outputs_[o] = new_array("flux", points, count);
     phases_.replaces(outputs_[o], call_);
     point(fmt::format("write_values<{}, {}>(out{}, e, q, {});", count, points.type(), o,
                       phases_.use(outputs_[o], call_)));
+    if (!by_columns) return;
+    columns_of_outputs_[o] = new_array("back", points);
+    phases_.replaces(columns_of_outputs_[o], call_);
+    before_column_.push_back(fmt::format("CeedScalar back{}[{}] = {{}};", o, column_ * points.num_comp));
+    point(fmt::format("integrate_column<{}, {}>({}, out{} + {}, z, back{});", column_, points.num_comp,
+                      grad_of(field.space), o, count * points.num_comp, o));
+    after_column_.push_back(fmt::format("write_column<{}>(back{}, e, xy, {});", points.type(), o,
+                                        phases_.use(columns_of_outputs_[o], call_)));
   }
 
   /// The QFunction's matrices, to where they are contracted, or to memory.
@@ -475,6 +546,7 @@ class ElementPrinter {
   struct Values {
     int array = -1;
     Shape shape;
+    int column = -1;  ///< of derivatives: values whose derivatives along z are taken column by column
   };
   const Block &block_;
   const CeedProgram &program_;
@@ -488,9 +560,12 @@ class ElementPrinter {
   std::vector<int> outputs_;         ///< arrays
   std::vector<int> sources_, sums_;  ///< arrays of nodes, or -1
   std::vector<Shape> sink_shapes_;
-  std::vector<std::string> point_;  ///< what is done at a point
+  std::vector<int> columns_of_outputs_;                    ///< arrays of what is integrated column by column
+  std::vector<std::string> point_;                         ///< what is done at a point,
+  std::vector<std::string> before_column_, after_column_;  ///< and for a column of them
   int num_arrays_ = 0, call_ = 0, last_ = 0, columns_ = -1;
-  CeedInt lines_ = 1;  ///< most lines of an element in a step
+  CeedInt lines_ = 1;   ///< most lines of an element in a step
+  CeedInt column_ = 0;  ///< points of a column, where some derivatives are taken so
 };
 
 }  // namespace

@@ -113,6 +113,42 @@ HG_DEVICE void write_values(const CeedScalar *values, int elem, int q, SharedArr
   }
 }
 
+/// What a thread does for a column of an element's points along z: derivatives along it, and their transpose, need no
+/// array of their own. Place m of component c is line[c*Q + m].
+template <typename Points>
+HG_DEVICE void read_column(SharedArray array, int elem, int xy, CeedScalar *line) {
+  constexpr int Q = Points::length(2);
+  HG_UNROLL for (int c = 0; c < Points::components; c++) {
+    HG_UNROLL for (int m = 0; m < Q; m++) {
+      line[c * Q + m] = array[elem * Points::size + c * Points::comp + Points::place(xy) + m * Points::plane];
+    }
+  }
+}
+template <typename Points>
+HG_DEVICE void write_column(const CeedScalar *line, int elem, int xy, SharedArray array) {
+  constexpr int Q = Points::length(2);
+  HG_UNROLL for (int c = 0; c < Points::components; c++) {
+    HG_UNROLL for (int m = 0; m < Q; m++) {
+      array[elem * Points::size + c * Points::comp + Points::place(xy) + m * Points::plane] = line[c * Q + m];
+    }
+  }
+}
+/// Derivatives at point z of the column; D: of its Q points' functions at these.
+template <int Q, int num_comp>
+HG_DEVICE void derive_column(const CeedScalar *D, const CeedScalar *line, int z, CeedScalar *derivative) {
+  HG_UNROLL for (int c = 0; c < num_comp; c++) {
+    derivative[c] = 0;
+    HG_UNROLL for (int m = 0; m < Q; m++) derivative[c] += D[z * Q + m] * line[c * Q + m];
+  }
+}
+/// The same back, from point z to all of the column.
+template <int Q, int num_comp>
+HG_DEVICE void integrate_column(const CeedScalar *D, const CeedScalar *flux, int z, CeedScalar *line) {
+  HG_UNROLL for (int c = 0; c < num_comp; c++) {
+    HG_UNROLL for (int m = 0; m < Q; m++) line[c * Q + m] += D[z * Q + m] * flux[c];
+  }
+}
+
 /// What is stored at the points: (point, component, element), the point fastest.
 template <int num_comp, int num_qpts>
 HG_DEVICE void read_stored(const Side &side, CeedSize elem, int q, CeedScalar *values) {
