@@ -19,9 +19,10 @@ extern "C" {
 /// The handle of a kernel, a CUfunction, points to one of these.
 struct CUfunc_st;
 
-/// Gives a QFunction the loaded kernel `f` (a CUfunction), which backends on CUDA devices launch in place of the text
-/// of its source path; backends that work elsewhere pass over it and call the QFunction's C function. The caller keeps
-/// the module that the kernel is in as long as the QFunction lives. Error CEED_ERROR_INCOMPATIBLE: CEED_QFUNCTION_NONE.
+/// Gives a QFunction the loaded kernel `f` (a CUfunction), for backends that launch it in place of the text of its source
+/// path. Those of this library do not: on devices they compile the text, and all others call the QFunction's C function.
+/// The caller keeps the module that the kernel is in as long as the QFunction lives. Error CEED_ERROR_INCOMPATIBLE:
+/// CEED_QFUNCTION_NONE.
 CEED_EXTERN int CeedQFunctionSetCUDAUserFunction(CeedQFunction qf, struct CUfunc_st *f);
 
 #ifdef __cplusplus
