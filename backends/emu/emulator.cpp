@@ -29,7 +29,7 @@ struct Function {
 /// What a thread gives to another one of its warp.
 struct Offer {
   std::vector<double> values;
-  unsigned phase = 0;  ///< of its warp
+  unsigned meeting = 0;  ///< of its warp, in which it is taken
 };
 
 /// What is running, for the functions that a kernel calls.
@@ -39,8 +39,17 @@ struct Running {
   const Function *function;
   std::vector<gpu::Phase> phases;  ///< of each warp
   std::vector<Offer> offers[2];    ///< of each thread, in this exchange and in the one before it
+  struct Meetings {
+    unsigned count = 0;
+    bool is_exchange = false;  ///< the next one, which is no barrier for what is in memory
+  };
+  std::vector<Meetings> meetings;  ///< of each warp
 
-  gpu::Phase &phase() { return phases[state.warp]; }
+  void warp_has_met(int warp) {
+    meetings[warp].count++;
+    if (!meetings[warp].is_exchange) phases[warp].of_warp++;
+    meetings[warp].is_exchange = false;
+  }
   /// Which thread runs from now on.
   void is(int thread) {
     state.thread = thread;
@@ -106,16 +115,18 @@ void exchange(Emulated *state, double *values, int count, int distance) {
     throw DeviceError(name_of(state) + " exchanges values with thread " + std::to_string(other) +
                       ", which is not of its warp");
   }
-  const unsigned phase = running->phase().of_warp + 1;
-  std::vector<Offer> &offers = running->offers[phase % 2];
+  Running::Meetings &meetings = running->meetings[state->warp];
+  const unsigned meeting = meetings.count + 1;
+  std::vector<Offer> &offers = running->offers[meeting % 2];
   offers[own].values.assign(values, values + count);
-  offers[own].phase = phase;
+  offers[own].meeting = meeting;
+  meetings.is_exchange = true;
   wait_for_warp(state);
   const Offer &offer = offers[other];
-  if (offer.phase != phase || offer.values.size() != static_cast<std::size_t>(count)) {
+  if (offer.meeting != meeting || offer.values.size() != static_cast<std::size_t>(count)) {
     throw DeviceError(name_of(state) + " exchanges " + std::to_string(count) + " values with thread " +
                       std::to_string(other) + ", which exchanges " +
-                      std::to_string(offer.phase == phase ? offer.values.size() : 0));
+                      std::to_string(offer.meeting == meeting ? offer.values.size() : 0));
   }
   std::copy(offer.values.begin(), offer.values.end(), values);
 }
@@ -223,7 +234,8 @@ void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void 
               .fibers = launch.has_barriers ? &fibers_ : nullptr,
               .function = &function,
               .phases = std::vector<gpu::Phase>(num_warps),
-              .offers = {}};
+              .offers = {},
+              .meetings = std::vector<Running::Meetings>(num_warps)};
   run.state.phases = run.phases.data();
   for (auto &offers : run.offers) offers.resize(launch.num_threads);
   running = &run;
@@ -232,7 +244,7 @@ void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void 
     function.call(job);
   };
   const Fibers::Referee referee{.order = [&] { return order_of(launch.num_threads); },
-                                .team_met = [&](int warp) { run.phases[warp].of_warp++; },
+                                .team_met = [&](int warp) { run.warp_has_met(warp); },
                                 .all_met =
                                     [&] {
                                       for (gpu::Phase &phase : run.phases) {

@@ -145,11 +145,13 @@ class CellPrinter {
     text_.shared_bytes = bytes();
     text_.num_elem = text_.num_threads / lanes_;
     text_.points_of_step = lanes_ * slots_;
-    while (assembly_.applies() && registers(text_.num_blocks + 1) >= wanted_registers()) text_.num_blocks++;
+    constexpr int most_blocks = 32, most_threads = 2048;  // of a processor
+    const int most = assembly_.applies() ? std::min(most_blocks, most_threads / text_.num_threads) : 1;
+    while (text_.num_blocks < most && registers(text_.num_blocks + 1) >= wanted_registers()) text_.num_blocks++;
     return text_.shared_bytes <= block_.shared_bytes;
   }
   /// A matrix is taken by a whole warp. Else two points for a thread, which share what they read of the nodes, where
-  /// registers have room for them.
+  /// registers have room for them, and cells have points for them.
   void choose_lanes() {
     constexpr int few_registers = 128;
     lanes_ = block_.warp_size;
@@ -157,36 +159,49 @@ class CellPrinter {
     for (slots_ = block_.slots > 0 ? block_.slots : 2;; slots_ = 1) {
       lanes_ = block_.lanes > 0 ? std::min(block_.lanes, block_.warp_size) : lanes_of_cell();
       sums_in_shared_ = num_sums() > most_sums;
-      if (slots_ == block_.slots || slots_ == 1 || wanted_registers() <= few_registers) return;
+      if (slots_ == block_.slots || slots_ == 1) return;
+      if (wanted_registers() <= few_registers && places_of_point(lanes_) <= most_places) return;
     }
   }
-  /// As many as leave few without a point (5 % more of these are worth twice as many lanes, which have smaller shares),
-  /// and more where the nodes of a block's cells, or sums, would take too much of shared memory for several blocks.
+  /// As many as leave few without a point (5 % more of these are worth twice as many lanes, which have smaller shares);
+  /// and more, as long as half of them have one, where the nodes of a block's cells, and sums, would take too much of
+  /// shared memory for several blocks.
   CeedInt lanes_of_cell() {
     constexpr CeedInt fewest = 4, most = 16;
     constexpr double more = 1.05;
-    constexpr CeedInt looked_at = 4096;  // cells
-    const CeedElementMap &map = map_of(program_.points_rstr);
-    const CeedInt distance = std::max<CeedInt>(1, program_.num_elem / looked_at);
-    const auto places_of = [&](CeedInt lanes) {
-      CeedSize places = 0;
-      const CeedInt of_step = lanes * slots_;
-      for (CeedSize e = 0; e < program_.num_elem; e += distance) {
-        places += (map.offsets[e + 1] - map.offsets[e] + of_step - 1) / of_step * of_step;
-      }
-      return static_cast<double>(places);
-    };
-    const double least = more * places_of(fewest);
+    const double least = more * places_of_point(fewest);
     CeedInt wanted = fewest;
-    while (wanted < most && places_of(wanted * 2) <= least) wanted *= 2;
-    std::size_t of_cell = 0;
-    for (const Evaluation &e : evaluations_) of_cell += cell_size(spaces_[e.space]);
-    const auto is_much = [&] {
-      const std::size_t sums = num_sums() > most_sums ? static_cast<std::size_t>(num_sums()) * text_.num_threads : 0;
-      return (of_cell * (text_.num_threads / lanes_) + sums) * sizeof(CeedScalar) > block_.shared_bytes / 5;
+    while (wanted < most && places_of_point(wanted * 2) <= least) wanted *= 2;
+    CeedInt of_cell = 0;
+    std::vector<CeedInt> sides;
+    for (const Evaluation &e : evaluations_) {
+      if (std::find(sides.begin(), sides.end(), e.side) != sides.end()) continue;
+      sides.push_back(e.side);
+      of_cell += cell_size(spaces_[e.space]);
+    }
+    const auto bytes = [&](CeedInt lanes) {
+      lanes_ = lanes;
+      const CeedInt sums = num_sums() > most_sums ? num_sums() : 0;
+      return (of_cell * (text_.num_threads / lanes) + sums * text_.num_threads) * sizeof(CeedScalar);
     };
-    for (lanes_ = wanted; lanes_ < block_.warp_size && is_much();) lanes_ *= 2;
-    return lanes_;
+    while (wanted < block_.warp_size && bytes(wanted) > block_.shared_bytes / 5 && bytes(2 * wanted) < bytes(wanted) &&
+           places_of_point(2 * wanted) <= most_places) {
+      wanted *= 2;
+    }
+    return wanted;
+  }
+  /// Places for points, of all steps of all cells, over points; of some thousand cells, where there are more.
+  double places_of_point(CeedInt lanes) const {
+    constexpr CeedInt looked_at = 4096;
+    const CeedElementMap &map = map_of(program_.points_rstr);
+    const CeedInt distance = std::max<CeedInt>(1, program_.num_elem / looked_at), of_step = lanes * slots_;
+    CeedSize places = 0, points = 0;
+    for (CeedSize e = 0; e < program_.num_elem; e += distance) {
+      const CeedInt count = map.offsets[e + 1] - map.offsets[e];
+      places += (static_cast<CeedSize>(count) + of_step - 1) / of_step * of_step;
+      points += count;
+    }
+    return points > 0 ? static_cast<double>(places) / static_cast<double>(points) : 1;
   }
   /// Lines of nodes that are summed at a time: a plane where that is not too much for registers.
   CeedInt lines_at_once(const Space &s) const {
@@ -396,6 +411,7 @@ class CellPrinter {
   AssemblyText assembly_;
   CeedInt dim_ = 0, lanes_ = 1, slots_ = 1;
   static constexpr CeedInt most_sums = 9;  ///< that registers are to keep over all steps of a cell
+  static constexpr double most_places = 2;  ///< for a point
   bool sums_in_shared_ = false;
   std::vector<Functions> functions_;
   OperatorText text_;

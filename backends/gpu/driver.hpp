@@ -32,6 +32,7 @@ struct Properties {
 /// A function on the device; valid as long as its module.
 struct Kernel {
   void *handle = nullptr;
+  std::uint64_t id = 0;  ///< no other one's in this process, as a handle may be
 };
 
 /// A loaded text, unloaded in the end.
@@ -62,6 +63,7 @@ class Calls {
  public:
   virtual ~Calls() = default;
   virtual void launch(std::span<const Call> calls) = 0;
+  virtual std::size_t num_bytes() const { return 0; }
 };
 
 /// One device. All work is done in one order, that of the calls (a stream); only copies to the host wait for it.

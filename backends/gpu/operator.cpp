@@ -145,7 +145,12 @@ int apply_add_parts(CeedOperator composite, CeedInt num_parts, const CeedOperato
     for (CeedInt i = 0; i < num_parts; i++) {
       FusedOperator *fused = fused_of(parts[i], *programs[i], Purpose::apply);
       if (fused == nullptr) {
-        apply_staged(parts[i], *programs[i], in, out, CEED_APPLY_ADD_ALL);
+        const auto is_active = [](const CeedProgramSide &side) { return side.is_active; };
+        const CeedProgram &program = *programs[i];
+        const bool takes_in = std::any_of(program.sources, program.sources + program.num_sources, is_active);
+        const bool gives_out = std::any_of(program.sinks, program.sinks + program.num_sinks, is_active);
+        apply_staged(parts[i], program, takes_in ? in : CEED_VECTOR_NONE, gives_out ? out : CEED_VECTOR_NONE,
+                     CEED_APPLY_ADD_ALL);
       } else if (adds_atomically(*programs[i])) {
         joined.emplace_back(fused, programs[i]);
       } else {
@@ -207,6 +212,7 @@ int get_memory(CeedOperator op, CeedSize *bytes) {
     const Kept *kept = kept_of(op);
     if (kept == nullptr) return;
     *bytes = sizeof *kept;
+    if (kept->parts != nullptr) *bytes += static_cast<CeedSize>(kept->parts->num_bytes());
     if (kept->staged != nullptr) *bytes += static_cast<CeedSize>(kept->staged->num_bytes());
     for (const auto &[purpose, fused] : kept->fused) {
       if (fused != nullptr) *bytes += static_cast<CeedSize>(fused->num_bytes());

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -153,7 +154,8 @@ class VendorModule : public Module {
     driver_.calls_.unload(module_);
   }
   Kernel kernel(const char *name) override {
-    Kernel kernel;
+    static std::atomic<std::uint64_t> count = 0;
+    Kernel kernel{.handle = nullptr, .id = ++count};
     driver_.make_current();
     driver_.check(driver_.calls_.function(&kernel.handle, module_, name),
                   ("'" + name_ + "' has no kernel '" + name + "'").c_str());
@@ -286,7 +288,7 @@ class VendorGraph : public Calls {
 
   void launch(std::span<const Call> calls) override {
     for (const Call &call : calls) driver_.allow(call.kernel, call.launch);
-    const auto is_of_kernel = [](const Call &a, const Call &b) { return a.kernel.handle == b.kernel.handle; };
+    const auto is_of_kernel = [](const Call &a, const Call &b) { return a.kernel.id == b.kernel.id; };
     if (!std::equal(calls.begin(), calls.end(), calls_made_.begin(), calls_made_.end(), is_of_kernel)) make(calls);
     for (std::size_t i = 0; i < calls.size(); i++) {
       const Call &now = calls[i], &then = calls_made_[i];
@@ -300,6 +302,11 @@ class VendorGraph : public Calls {
       calls_made_[i] = now;
     }
     driver_.check(calls_.launch(executable_, driver_.stream_), "a graph cannot be launched");
+  }
+  std::size_t num_bytes() const override {
+    std::size_t bytes = sizeof *this;
+    for (const Call &call : calls_made_) bytes += sizeof call + call.job.size();
+    return bytes;
   }
 
  private:
@@ -341,7 +348,11 @@ class VendorGraph : public Calls {
 
 std::unique_ptr<Calls> VendorDriver::make_calls() {
   if (vendor_.graph_names.empty()) return Driver::make_calls();
-  return std::make_unique<VendorGraph>(*this);
+  try {
+    return std::make_unique<VendorGraph>(*this);
+  } catch (const DeviceError &) {
+    return Driver::make_calls();  // a driver that is older than the compiler may have no graphs
+  }
 }
 
 }  // namespace

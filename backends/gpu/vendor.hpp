@@ -54,7 +54,7 @@ struct DriverCalls {
   int (*launch)(void *function, unsigned grid_x, unsigned grid_y, unsigned grid_z, unsigned block_x, unsigned block_y,
                 unsigned block_z, unsigned shared_bytes, void *stream, void **arguments, void **extra);
 };
-/// A kernel in a graph, as both vendors' old and new versions have it (fields of newer ones follow, and are 0).
+/// A kernel in a graph, as CUDA has it (newer versions read two more handles, which are 0).
 struct GraphKernel {
   void *function = nullptr;
   unsigned grid[3] = {1, 1, 1}, block[3] = {1, 1, 1}, shared_bytes = 0;

@@ -33,11 +33,14 @@ class Counter {
       add(memory_.assembly, *op.assembled);
       add(memory_.assembly, *op.assembled_rstr);
     }
-    if (op.ceed->ops.op.get_memory != nullptr) {
-      CeedSize bytes = 0;
-      hg::check(op.ceed->ops.op.get_memory(&op, &bytes));
-      memory_.backend += bytes;
-    }
+    add_backend(op);
+  }
+  /// What the backend keeps, also for a composite whose parts it applied together.
+  void add_backend(CeedOperator_private &op) {
+    if (op.ceed->ops.op.get_memory == nullptr) return;
+    CeedSize bytes = 0;
+    hg::check(op.ceed->ops.op.get_memory(&op, &bytes));
+    memory_.backend += bytes;
   }
 
   CeedOperatorMemory memory() const {
@@ -79,6 +82,7 @@ int CeedOperatorGetMemory(CeedOperator op, CeedOperatorMemory *memory) {
     CeedOperatorMemory &result = hg::result(memory, "memory");
     Counter counter;
     hg::for_each_single(*op, [&](CeedOperator_private &single) { counter.add(single); });
+    if (op->is_joined) counter.add_backend(*op);
     result = counter.memory();
   });
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -135,35 +136,91 @@ TEST_F(DriverTest, RefusesMoreBlocksThanAGridHas) {
                gpu::DeviceError);
 }
 
-/// A graph is made for kernels, and kept as long as these are called; jobs may be others each time.
-TEST_F(DriverTest, LaunchesCallsAsOneGraph) {
-  const auto driver = gpu::make_driver(vendor, 1);
-  const auto module = driver->compile("nothing", "");
-  const gpu::Kernel kernel = module->kernel("f");
-  const auto call = [&](int job, std::uint64_t num_blocks) {
-    gpu::Call made{.kernel = kernel, .launch = {.num_blocks = num_blocks, .num_threads = 32}, .job = {}};
-    made.job.resize(sizeof job);
+/// Calls of kernels that are launched as one.
+class GraphTest : public DriverTest {
+ protected:
+  static gpu::Call call(gpu::Kernel kernel, int job, std::uint64_t num_blocks, std::size_t shared_bytes = 0) {
+    gpu::Call made{.kernel = kernel,
+                   .launch = {.num_blocks = num_blocks, .num_threads = 96, .shared_bytes = shared_bytes},
+                   .job = std::vector<std::byte>(sizeof job)};
     std::memcpy(made.job.data(), &job, sizeof job);
     return made;
-  };
+  }
+  static FakeCuda::Called called(gpu::Kernel kernel, int job, unsigned num_blocks, unsigned shared_bytes = 0,
+                                 void *stream = nullptr) {
+    return {kernel.handle, job, num_blocks, 96, shared_bytes, stream};
+  }
+
+  const std::shared_ptr<gpu::Driver> driver = gpu::make_driver(vendor, 1);
+  const std::unique_ptr<gpu::Module> module = driver->compile("nothing", "");
+  const gpu::Kernel f = module->kernel("f"), g = module->kernel("g");
+};
+
+/// It is kept as long as the same kernels are called; jobs may be others each time.
+TEST_F(GraphTest, IsKept) {
+  int stream = 0;
   {
     const auto calls = driver->make_calls();
-    calls->launch(std::vector{call(1, 5), call(2, 6)});
-    calls->launch(std::vector{call(1, 5), call(2, 6)});
+    calls->launch(std::vector{call(f, 1, 5), call(g, 2, 6)});
+    calls->launch(std::vector{call(f, 1, 5), call(g, 2, 6)});
     EXPECT_EQ(fake_cuda.num_changed, 0);
-    calls->launch(std::vector{call(1, 5), call(3, 6)});
-    calls->launch(std::vector{call(1, 4), call(3, 6)});
-    EXPECT_EQ(fake_cuda.num_changed, 2);
+    calls->launch(std::vector{call(f, 1, 5), call(g, 3, 6)});
+    driver->set_stream(&stream);
+    calls->launch(std::vector{call(f, 1, 4), call(g, 3, 6, 50000)});
+    EXPECT_EQ(fake_cuda.num_changed, 3);
     EXPECT_EQ(fake_cuda.num_made, 1);
-    calls->launch(std::vector{call(7, 1)});
-    EXPECT_EQ(fake_cuda.num_made, 2);
-    EXPECT_EQ(fake_cuda.called, (std::vector<int>{1, 2, 1, 2, 1, 3, 1, 3, 7}));
-    EXPECT_EQ(fake_cuda.blocks, (std::vector<unsigned>{5, 6, 5, 6, 5, 6, 4, 6, 1}));
-    EXPECT_THROW(calls->launch(std::vector{call(7, std::uint64_t{1} << 31)}), gpu::DeviceError);
+    EXPECT_EQ(fake_cuda.allowed, std::vector<int>{50000});
+    EXPECT_EQ(fake_cuda.called,
+              (std::vector{called(f, 1, 5), called(g, 2, 6), called(f, 1, 5), called(g, 2, 6), called(f, 1, 5),
+                           called(g, 3, 6), called(f, 1, 4, 0, &stream), called(g, 3, 6, 50000, &stream)}));
+    EXPECT_GT(calls->num_bytes(), 0U);
   }
   EXPECT_EQ(fake_cuda.num_graphs, 0);
   EXPECT_EQ(fake_cuda.num_executables, 0);
   EXPECT_EQ(fake_cuda.current, 1);
+  EXPECT_EQ(fake_cuda.num_launched, 0);
+}
+
+TEST_F(GraphTest, IsMadeAnewForOtherKernels) {
+  const auto calls = driver->make_calls();
+  calls->launch(std::vector{call(f, 1, 5), call(g, 2, 6)});
+  calls->launch(std::vector{call(g, 1, 5), call(f, 2, 6)});
+  calls->launch(std::vector{call(f, 7, 1)});
+  EXPECT_EQ(fake_cuda.num_made, 3);
+  EXPECT_EQ(fake_cuda.num_graphs, 1);
+  EXPECT_EQ(fake_cuda.called,
+            (std::vector{called(f, 1, 5), called(g, 2, 6), called(g, 1, 5), called(f, 2, 6), called(f, 7, 1)}));
+}
+
+/// A module that has gone may have left its kernel's handle to another one.
+TEST_F(GraphTest, IsMadeAnewForANewKernelWithAnOldHandle) {
+  const auto calls = driver->make_calls();
+  fake_cuda.reuses_functions = true;
+  const gpu::Kernel other = driver->compile("nothing", "")->kernel("g");
+  ASSERT_EQ(other.handle, g.handle);
+  calls->launch(std::vector{call(f, 1, 5), call(g, 2, 6)});
+  calls->launch(std::vector{call(f, 1, 5), call(other, 2, 6)});
+  EXPECT_EQ(fake_cuda.num_made, 2);
+}
+
+TEST_F(GraphTest, IsThereAfterAFailure) {
+  const auto calls = driver->make_calls();
+  EXPECT_THROW(calls->launch(std::vector{call(f, 7, std::uint64_t{1} << 31)}), gpu::DeviceError);
+  fake_cuda.refused_graphs = 1;
+  EXPECT_THROW(calls->launch(std::vector{call(f, 1, 5)}), gpu::DeviceError);
+  calls->launch(std::vector{call(f, 1, 5)});
+  fake_cuda.refused_changes = 1;
+  EXPECT_THROW(calls->launch(std::vector{call(f, 2, 5)}), gpu::DeviceError);
+  calls->launch(std::vector{call(f, 2, 5)});
+  EXPECT_EQ(fake_cuda.called, (std::vector{called(f, 1, 5), called(f, 2, 5)}));
+}
+
+/// A driver that is older than the compiler need not have all calls.
+TEST_F(GraphTest, IsDoneWithoutWhereTheDriverHasNone) {
+  constexpr const char *names[] = {"cuGraphCreate", "cuGraphOfTomorrow", "c", "d", "e", "f", "g"};
+  vendor.graph_names = names;
+  driver->make_calls()->launch(std::vector{call(f, 1, 5), call(g, 2, 6)});
+  EXPECT_EQ(fake_cuda.num_launched, 2);
 }
 
 /// HIP's driver has none.

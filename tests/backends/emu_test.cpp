@@ -147,6 +147,13 @@ TEST_P(WarpTest, FindsAnExchangeThatNotAllComeTo) {
                "values with thread ");
 }
 
+/// On a device it orders nothing in memory.
+TEST_P(WarpTest, ExchangesAreNoBarriers) {
+  expect_names(error_of("HG_SHARED(s); double v = 1; s[thread()] = 1; exchange<1>(&v, 1);"
+                        "job.y[index()] = s[thread() ^ 1];"),
+               "reads what another thread has written since the last barrier");
+}
+
 TEST_P(WarpTest, FindsAnExchangeWithAnotherWarp) {
   expect_names(error_of("double v = 1; exchange<1>(&v, 64); job.y[index()] = v;"), "which is not of its warp");
 }

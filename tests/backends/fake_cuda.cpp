@@ -17,10 +17,7 @@ constexpr int num_devices = 2;
 constexpr char compiled[] = "code";
 
 /// A node of a graph: what it was added or changed with, copied.
-struct Node {
-  int job;
-  unsigned num_blocks;
-};
+using Node = FakeCuda::Called;
 using Graph = std::vector<Node *>;
 
 /// CUDA_KERNEL_NODE_PARAMS up to its arguments.
@@ -30,7 +27,11 @@ struct KernelNode {
   void **arguments, **extra;
 };
 Node read(const KernelNode &kernel) {
-  return {*static_cast<const int *>(kernel.arguments[0]), kernel.grid[0]};
+  return {.function = kernel.function,
+          .job = *static_cast<const int *>(kernel.arguments[0]),
+          .num_blocks = kernel.grid[0],
+          .num_threads = kernel.block[0],
+          .shared_bytes = kernel.shared_bytes};
 }
 
 int copy_now(void *to, const void *from, std::size_t bytes) {
@@ -125,8 +126,9 @@ int cuModuleLoadData(void **module, const void *code) {
 int cuModuleUnload(void *) {
   return 0;
 }
-int cuModuleGetFunction(void **function, void *module, const char *) {
-  *function = module;
+int cuModuleGetFunction(void **function, void *, const char *) {
+  if (!fake_cuda.reuses_functions || fake_cuda.num_functions == 0) fake_cuda.num_functions++;
+  *function = reinterpret_cast<void *>(static_cast<std::intptr_t>(fake_cuda.num_functions));
   return 0;
 }
 int cuLaunchKernel(void *, unsigned, unsigned, unsigned, unsigned, unsigned, unsigned, unsigned, void *, void **,
@@ -148,20 +150,28 @@ int cuGraphAddKernelNode(void **node, void *graph, void *const *, std::size_t nu
   return 0;
 }
 int cuGraphInstantiateWithFlags(void **executable, void *graph, unsigned long long) {
+  if (fake_cuda.refused_graphs > 0) {
+    fake_cuda.refused_graphs--;
+    return invalid_value;
+  }
   fake_cuda.num_executables++;
   fake_cuda.num_made++;
   *executable = graph;
   return 0;
 }
 int cuGraphExecKernelNodeSetParams(void *, void *node, const KernelNode *kernel) {
+  if (fake_cuda.refused_changes > 0) {
+    fake_cuda.refused_changes--;
+    return invalid_value;
+  }
   fake_cuda.num_changed++;
   *static_cast<Node *>(node) = read(*kernel);
   return 0;
 }
-int cuGraphLaunch(void *executable, void *) {
+int cuGraphLaunch(void *executable, void *stream) {
   for (const Node *node : *static_cast<Graph *>(executable)) {
-    fake_cuda.called.push_back(node->job);
-    fake_cuda.blocks.push_back(node->num_blocks);
+    fake_cuda.called.push_back(*node);
+    fake_cuda.called.back().stream = stream;
   }
   return 0;
 }
@@ -175,7 +185,8 @@ int cuGraphDestroy(void *graph) {
   delete static_cast<Graph *>(graph);
   return 0;
 }
-int cuFuncSetAttribute(void *, int, int) {
+int cuFuncSetAttribute(void *, int, int bytes) {
+  fake_cuda.allowed.push_back(bytes);
   return 0;
 }
 int cuGetErrorString(int, const char **text) {

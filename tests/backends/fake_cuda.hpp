@@ -13,10 +13,22 @@ struct FakeCuda {
   int refused_loads = 0;           ///< how many times code is refused from now on
   bool is_full = false;            ///< there is no memory left
   std::vector<void *> waited_for;  ///< streams
+  bool reuses_functions = false;   ///< a function of a new module has the handle of an old one's
+  int num_functions = 0;           ///< that were asked for
   int num_graphs = 0, num_executables = 0;  ///< that are there
   int num_made = 0, num_changed = 0;        ///< executables that were made, nodes that were changed
-  std::vector<int> called;                  ///< the first number of each job that a graph was launched with, and
-  std::vector<unsigned> blocks;             ///< the number of its blocks
+  int refused_graphs = 0, refused_changes = 0;  ///< how many times that is refused from now on
+  /// A kernel that a graph was launched with.
+  struct Called {
+    void *function = nullptr;
+    int job = 0;  ///< its first number
+    unsigned num_blocks = 0, num_threads = 0, shared_bytes = 0;
+    void *stream = nullptr;
+
+    bool operator==(const Called &) const = default;
+  };
+  std::vector<Called> called;
+  std::vector<int> allowed;  ///< bytes of shared memory that functions were allowed
   static constexpr int none = -1;
 };
 /// The library that is linked to a test and the one that is loaded by it are the same.

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <set>
 
+#include "backends/emu/texts.hpp"
+#include "backends/gpu/texts.hpp"
 #include "backends/jit/cache.hpp"
 #include "support/program.hpp"
 #include "vendor_targets.hpp"
@@ -14,11 +16,21 @@ namespace {
 using namespace hg;
 using test::VendorTest;
 
-/// Where a text for devices begins, which the emulator puts its own part before.
-constexpr const char *beginning = "#define HG_GPU_TEXT\n";
+/// Whether a text is made of parts as they are now; the cache may have older ones.
+bool is_of_today(const std::string &text) {
+  if (text.find(gpu::first_text()) == std::string::npos) return false;
+  const auto has_none_but_todays = [&](const char *part) {
+    const std::string begin = "#line 1 \"" + std::string(part) + "\"\n";
+    return text.find(begin) == std::string::npos || text.find(begin + gpu::text(part)) != std::string::npos;
+  };
+  return has_none_but_todays("sides.hpp") && has_none_but_todays("elements.hpp") && has_none_but_todays("cells.hpp") &&
+         has_none_but_todays("assembly.hpp");
+}
 
-/// The texts in the cache on disk, each once, in an order that says nothing of them: that of their hashes.
+/// The texts in the cache on disk, each once and without what the emulator puts before them, in an order that says
+/// nothing of them: that of their hashes.
 std::vector<std::string> texts_of_the_suite() {
+  const std::string emulators = jit::text_of(emu::texts, "emulator.hpp");
   std::vector<std::filesystem::path> files;
   for (const auto &entry : std::filesystem::directory_iterator(jit::Cache().folder())) {
     if (entry.path().extension() == ".cpp") files.push_back(entry.path());
@@ -28,9 +40,10 @@ std::vector<std::string> texts_of_the_suite() {
   std::vector<std::string> texts;
   for (const auto &file : files) {
     const std::string text = test::read_text(file);
-    const std::size_t begin = text.find(beginning);
+    const std::size_t begin = text.find(emulators);
     if (begin == std::string::npos) continue;
-    if (seen.insert(text.substr(begin)).second) texts.push_back(text.substr(begin));
+    const std::string of_device = text.substr(begin + emulators.size());
+    if (is_of_today(of_device) && seen.insert(of_device).second) texts.push_back(of_device);
   }
   return texts;
 }

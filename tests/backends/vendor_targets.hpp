@@ -19,13 +19,23 @@ struct Target {
   const char *name;
   const gpu::Vendor &vendor;
   std::vector<std::string> options;
+  int warp_size;
+  std::size_t shared_bytes;  ///< of a block, at most
 };
 
 inline const std::vector<Target> &targets() {
   static const std::vector<Target> all{
-      {"sm_80", cuda::vendor, {"--gpu-architecture=sm_80", "--std=c++17", "-default-device", "--ptxas-options=-v"}},
-      {"sm_90", cuda::vendor, {"--gpu-architecture=sm_90", "--std=c++17", "-default-device", "--ptxas-options=-v"}},
-      {"gfx90a", hip::vendor, {"--offload-arch=gfx90a", "-std=c++17", "-O3"}}};
+      {"sm_80",
+       cuda::vendor,
+       {"--gpu-architecture=sm_80", "--std=c++17", "-default-device", "--ptxas-options=-v"},
+       32,
+       163 << 10},
+      {"sm_90",
+       cuda::vendor,
+       {"--gpu-architecture=sm_90", "--std=c++17", "-default-device", "--ptxas-options=-v"},
+       32,
+       227 << 10},
+      {"gfx90a", hip::vendor, {"--offload-arch=gfx90a", "-std=c++17", "-O3"}, 64, 64 << 10}};
   return all;
 }
 

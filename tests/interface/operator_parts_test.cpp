@@ -2,6 +2,7 @@
 #include <ceed/plugin.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -22,8 +23,20 @@ int apply_add_parts(CeedOperator composite, CeedInt num_parts, const CeedOperato
   num_joined.push_back(num_parts);
   CeedCallBackend(CeedOperatorSetData(composite, &parent));
   for (CeedInt i = num_parts - 1; i >= 0; i--) {  // in any order
-    CeedCallBackend(parent.op.apply_add(parts[i], programs[i], in, out, CEED_APPLY_ADD_ALL));
+    const auto is_active = [](const CeedProgramSide &side) { return side.is_active; };
+    const CeedProgram &program = *programs[i];
+    const bool takes_in = std::any_of(program.sources, program.sources + program.num_sources, is_active);
+    const bool gives_out = std::any_of(program.sinks, program.sinks + program.num_sinks, is_active);
+    CeedCallBackend(parent.op.apply_add(parts[i], &program, takes_in ? in : CEED_VECTOR_NONE,
+                                        gives_out ? out : CEED_VECTOR_NONE, CEED_APPLY_ADD_ALL));
   }
+  return CEED_ERROR_SUCCESS;
+}
+
+int get_memory(CeedOperator op, CeedSize *bytes) {
+  void *data = nullptr;
+  CeedCallBackend(CeedOperatorGetData(op, &data));
+  *bytes = data == &parent ? 1000 : 0;
   return CEED_ERROR_SUCCESS;
 }
 
@@ -38,6 +51,7 @@ int init(Ceed, const char *, CeedBackendOps *ops) {
   if (parent.size == 0) parent = *ops;
   ops->op.apply_add_parts = apply_add_parts;
   ops->op.destroy = destroy;
+  ops->op.get_memory = get_memory;
   return CEED_ERROR_SUCCESS;
 }
 
@@ -95,6 +109,9 @@ TEST_F(PartsTest, ComeTogether) {
   EXPECT_EQ(apply(), 3);
   EXPECT_EQ(apply(), 3);
   EXPECT_EQ(num_joined, (std::vector<CeedInt>{3, 3}));
+  CeedOperatorMemory memory{};
+  ok(CeedOperatorGetMemory(sum, &memory));
+  EXPECT_EQ(memory.backend, 1000);
   sum = Operator();
   EXPECT_EQ(num_destroyed, 1);
 }

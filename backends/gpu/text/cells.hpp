@@ -60,7 +60,7 @@ struct Functions {
 
 /// A thread's cell. Lanes without one, or beyond its points, go along with the others of the warp.
 struct CellLanes {
-  CeedInt cell = 0, first = 0, end = 0;  ///< its points
+  CeedInt cell = 0, first = 0, count = 0;  ///< its points
   CeedInt num_steps = 0;                 ///< that the warp takes
 
   HG_DEVICE CellLanes(const OperatorFacts &facts) {
@@ -73,12 +73,15 @@ struct CellLanes {
     if (own >= facts.num_cells) return;
     cell = facts.cells[own];
     first = starts[cell];
-    end = starts[cell + 1];
+    count = starts[cell + 1] - first;
   }
   HG_DEVICE static int lane() { return thread() % cell_lanes; }
-  /// The point of a slot, and whether there is one.
-  HG_DEVICE CeedInt point(CeedInt step, int slot) const { return first + (step * slots + slot) * cell_lanes + lane(); }
-  HG_DEVICE bool has(CeedInt point) const { return point < end; }
+  /// The point of a slot; -1 where there is none.
+  HG_DEVICE CeedInt point(CeedInt step, int slot) const {
+    const auto i = (static_cast<unsigned>(step) * slots + slot) * cell_lanes + lane();
+    return i < static_cast<unsigned>(count) ? first + static_cast<CeedInt>(i) : -1;
+  }
+  HG_DEVICE static bool has(CeedInt point) { return point >= 0; }
 };
 
 /// The lanes of a block that have points of a cell in this step, one each, for what all lanes of the cell take part in.
@@ -86,7 +89,7 @@ struct StepLanes {
   int first, count;
 
   HG_DEVICE StepLanes(const CellLanes &at, CeedInt step) : first(thread() / cell_lanes * cell_lanes) {
-    const CeedInt left = at.end - at.first - step * cell_lanes;
+    const CeedInt left = at.count - step * cell_lanes;
     count = left < cell_lanes ? left : cell_lanes;
   }
   HG_DEVICE int begin(int) const { return first; }
@@ -98,7 +101,7 @@ struct StepLanes {
 /// The nodes of a cell, by its lanes.
 template <typename Cell>
 HG_DEVICE void read_cell(const Side &side, const CellLanes &at, SharedArray nodes) {
-  if (at.first == at.end) return;
+  if (at.count == 0) return;
   for (int i = CellLanes::lane(); i < Cell::lines * Cell::line; i += cell_lanes) {
     const int in_line = i % Cell::line, n = i / Cell::line * (Cell::count / Cell::lines) + in_line / Cell::components;
     CeedScalar value = 0;  // what fills up a line
@@ -288,7 +291,7 @@ struct CellSums {
   }
   /// After all steps: to the L-vector.
   HG_DEVICE void add_to(const Side &side, const CellLanes &cell) const {
-    if (cell.first == cell.end) return;
+    if (cell.count == 0) return;
     int first = 0, num = size;
     OfLane::find(first, num);
     HG_UNROLL for (int i = 0; i < OfLane::size; i++) {

@@ -202,8 +202,8 @@ typedef struct {
   int (*apply_add)(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// Optional: apply_add() with CEED_APPLY_ADD_ALL of the num_parts single operators of a `composite` that is not
   /// sequential, in any order or at once: none reads what another one writes. They and the composite are of one Ceed,
-  /// and parts[i] has programs[i]. in, out: for those that have an active input or output. CeedOperatorGetData() of the
-  /// composite is NULL at first. Who replaces apply_add() replaces this one as well, if only by NULL, which stands for
+  /// and parts[i] has programs[i]. in, out: for those parts that have an active input or output. CeedOperatorGetData() of
+  /// the composite is NULL at first, and its destroy() and get_memory() are called once this was. Who replaces apply_add() replaces this one as well, if only by NULL, which stands for
   /// one after another.
   int (*apply_add_parts)(CeedOperator composite, CeedInt num_parts, const CeedOperator *parts,
                          const CeedProgram *const *programs, CeedVector in, CeedVector out);
