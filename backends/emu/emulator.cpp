@@ -209,6 +209,19 @@ std::vector<Number> Emulator::order_of(Number count) {
   return order;
 }
 
+std::unique_ptr<gpu::Calls> Emulator::make_calls() {
+  struct InOrder : gpu::Calls {
+    explicit InOrder(Emulator &device) : device(device) {}
+    void launch(std::span<const gpu::Call> calls) override {
+      for (const std::size_t i : device.order_of(calls.size())) {
+        device.launch(calls[i].kernel, calls[i].launch, calls[i].job.data(), calls[i].job.size());
+      }
+    }
+    Emulator &device;
+  };
+  return std::make_unique<InOrder>(*this);
+}
+
 void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void *job, std::size_t) {
   const auto &function = *static_cast<const Function *>(kernel.handle);
   if (launch.num_threads < 1 || launch.num_threads > properties_.max_threads ||

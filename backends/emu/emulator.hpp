@@ -15,7 +15,7 @@ namespace hg::emu {
 enum class Order { forward, backward, shuffled };
 
 struct Options {
-  Order order = Order::forward;  ///< of blocks, and of threads between two barriers
+  Order order = Order::forward;  ///< of calls that do not depend on each other, blocks, and threads between two barriers
   int warp_size = 32;
   gpu::Options device;  ///< as devices have them
 };
@@ -33,6 +33,7 @@ class Emulator : public gpu::Driver {
   void set_stream(void *) override {}
   std::unique_ptr<gpu::Module> compile(const std::string &name, const std::string &text) override;
   void launch(gpu::Kernel kernel, const gpu::Launch &launch, const void *job, std::size_t job_bytes) override;
+  std::unique_ptr<gpu::Calls> make_calls() override;
 
  private:
   void to_device(void *to, const void *from, std::size_t bytes) override { copy(to, from, bytes); }

@@ -93,7 +93,7 @@ void JacobianMat::pattern() {
   if (all_same) return;
   rows_.assign(rows, rows + count);
   columns_.assign(columns, columns + count);
-  ceed_check(CeedVectorCreate(mesh_.ceed, count, entries_.put()));
+  ceed_check(CeedVectorCreate(mesh_.ceed, count + num_rows_, entries_.put()));
 
   // Every row has its diagonal, also where no cell contributes, so that the pattern outlives a change of inactive rows.
   std::vector<PetscInt> i(count + num_rows_), j(i.size());
@@ -112,15 +112,12 @@ void JacobianMat::update(double damping) {
       const OperatorScope scope(OperatorWork::matrix);
       ceed_check(CeedOperatorLinearAssemble(op_, entries_));
     }
-    CeedSize count;
-    const CeedScalar *values;
-    ceed_check(CeedVectorGetLength(entries_, &count));
-    ceed_check(CeedVectorGetArrayRead(entries_, CEED_MEM_HOST, &values));
-    std::vector<PetscScalar> all(values, values + count);
-    ceed_check(CeedVectorRestoreArrayRead(entries_, &values));
-    all.resize(count + num_rows_, 0.);
-    for (PetscInt row : inactive_->rows()) all[count + row] = 1.;
-    petsc_check(MatSetValuesCOO(mat_, all.data(), INSERT_VALUES));
+    // What comes after the elements' entries is 0, but for the diagonal of rows that are inactive.
+    CeedScalar *values;
+    ceed_check(CeedVectorGetArray(entries_, CEED_MEM_HOST, &values));
+    for (PetscInt row : inactive_->rows()) values[rows_.size() + row] = 1.;
+    petsc_check(MatSetValuesCOO(mat_, values, INSERT_VALUES));
+    ceed_check(CeedVectorRestoreArray(entries_, &values));
   }
   petsc_check(MatAssemblyBegin(mat_, MAT_FINAL_ASSEMBLY));
   petsc_check(MatAssemblyEnd(mat_, MAT_FINAL_ASSEMBLY));

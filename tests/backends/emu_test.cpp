@@ -221,6 +221,35 @@ TEST_P(EmulatorTest, RunsThreadsInItsOrder) {
   }
 }
 
+/// So do calls that do not depend on each other: each puts its turn where it says.
+TEST_P(EmulatorTest, MakesCallsInItsOrder) {
+  struct Turn {
+    double *count, *turn;
+  };
+  emu::Emulator device(emu::parse(GetParam()));
+  constexpr int num_calls = 9;
+  std::vector<double> counts(num_calls + 1, 0);
+  const auto module = device.compile("test",
+                                     "struct Turn { double *count, *turn; }; using namespace hg::gpu;\n"
+                                     "HG_KERNEL(test, Turn) { *job.turn = (*job.count)++; }");
+  const gpu::Kernel kernel = module->kernel("test");
+  std::vector<gpu::Call> calls;
+  for (int i = 0; i < num_calls; i++) {
+    const Turn job{counts.data(), &counts[i + 1]};
+    calls.push_back({.kernel = kernel, .launch = {.num_blocks = 1, .num_threads = 1}, .job = {}});
+    calls.back().job.resize(sizeof job);
+    std::memcpy(calls.back().job.data(), &job, sizeof job);
+  }
+  device.make_calls()->launch(calls);
+  EXPECT_EQ(counts[0], num_calls);
+  std::vector<double> turns(counts.begin() + 1, counts.end());
+  const std::string order = GetParam();
+  EXPECT_EQ(std::is_sorted(turns.begin(), turns.end()), order.find("forward") != std::string::npos);
+  EXPECT_EQ(std::is_sorted(turns.rbegin(), turns.rend()), order.find("backward") != std::string::npos);
+  std::sort(turns.begin(), turns.end());
+  for (int i = 0; i < num_calls; i++) EXPECT_EQ(turns[i], i);
+}
+
 TEST_P(EmulatorTest, RefusesLaunchesThatNoDeviceTakes) {
   expect_names(error_of("", 1 << 20), "cannot be launched with 8 threads and 8388608 bytes of shared memory");
 }
