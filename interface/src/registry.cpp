@@ -211,11 +211,18 @@ const CeedBackend &find_backend(std::string_view request) {
   for (const std::string_view wanted : {request, nearest_of_ours(request)}) {
     if (wanted.empty()) continue;
     const CeedBackend *best = nullptr;
+    const auto is_taken_last = [](const RegistryEntry &entry) {
+      return entry.backend->priority == CEED_MAX_BACKEND_PRIORITY;
+    };
+    const bool has_others = std::any_of(entries.begin(), entries.end(), [&](const RegistryEntry &entry) {
+      return starts_with_components(entry.resource, wanted) && !is_taken_last(entry);
+    });
     for (const auto &entry : entries) {
-      if (!starts_with_components(entry.resource, wanted)) continue;
+      if (!starts_with_components(entry.resource, wanted) || (has_others && is_taken_last(entry))) continue;
       std::string reason;
       if (score_of(*entry.backend, reason) <= 0) {
-        unavailable += std::string("\n  ") + entry.resource + " is not available on this machine: " + reason;
+        const std::string line = std::string("\n  ") + entry.resource + " is not available on this machine: " + reason;
+        if (unavailable.find(line) == std::string::npos) unavailable += line;
         continue;
       }
       if (best == nullptr || entry.backend->priority < best->priority) best = entry.backend;

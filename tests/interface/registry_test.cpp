@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,12 @@ int init(Ceed, const char *, CeedBackendOps *) {
   return CEED_ERROR_SUCCESS;
 }
 
-/// Three backends below /zoo and one beside it.
+int is_away(const char **reason) {
+  *reason = "it is away";
+  return 0;
+}
+
+/// Some backends below /zoo and one beside it; and a stand-in.
 void register_zoo() {
   static const char *const aliases[] = {"/zoo/striped horse", nullptr};
   static constexpr const char *ref = "/cpu/self/ref/serial";
@@ -28,8 +34,11 @@ void register_zoo() {
       {"/zoo/cat/lynx", ref, 20, nullptr, nullptr, init},
       {"/zoo/zebra", ref, 40, aliases, nullptr, init},
       {"/zoological", ref, 1, nullptr, nullptr, init},
+      {"/zoo/cat/of plush", ref, CEED_MAX_BACKEND_PRIORITY, nullptr, nullptr, init},
+      {"/garden/away", ref, 10, nullptr, is_away, init},
+      {"/garden/gnome/red", ref, CEED_MAX_BACKEND_PRIORITY, nullptr, nullptr, init},
   };
-  static const CeedPlugin plugin = {sizeof(CeedPlugin), CEED_PLUGIN_API_VERSION, "zoo", 4, backends};
+  static const CeedPlugin plugin = {sizeof(CeedPlugin), CEED_PLUGIN_API_VERSION, "zoo", std::size(backends), backends};
   static const int code = CeedPluginRegister(&plugin);
   ASSERT_EQ(code, 0);
 }
@@ -65,6 +74,15 @@ TEST(Registry, OpensByPrefixThenPriority) {
   EXPECT_EQ(resolved("/zoo/cat"), "/zoo/cat/lynx");
   EXPECT_EQ(resolved("/zoo/zebra"), "/zoo/zebra");
   EXPECT_EQ(resolved("/zoo/striped horse"), "/zoo/zebra");
+}
+
+/// What only stands in for others is opened where it is named, not in their place.
+TEST(Registry, OpensAStandInWhereItIsNamed) {
+  register_zoo();
+  EXPECT_EQ(resolved("/zoo/cat/of plush"), "/zoo/cat/of plush");
+  EXPECT_EQ(resolved("/garden/gnome"), "/garden/gnome/red");
+  const std::string message = refusal("/garden");
+  EXPECT_NE(message.find("/garden/away is not available on this machine: it is away"), std::string::npos) << message;
 }
 
 /// Components are whole: /zoo is no part of /zoological.

@@ -15,7 +15,8 @@
 #define CEED_UNUSED __attribute__((unused))
 /// A buffer of so many characters holds every resource.
 #define CEED_MAX_RESOURCE_LEN 1024
-/// Priority of a backend that is taken last.
+/// Priority of a backend that is taken only where what is asked for begins no other one's name, be that available or
+/// not.
 #define CEED_MAX_BACKEND_PRIORITY UINT_MAX
 /// Alignment in bytes of arrays that the library allocates.
 #define CEED_ALIGN 64
