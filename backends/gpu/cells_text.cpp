@@ -222,7 +222,7 @@ class CellPrinter {
   }
   /// What a thread has at hand at once: the functions of its points, its sums over steps, and what the evaluation of a
   /// field, with two lines of nodes, or a part of its integration works with. For all bake-off problems up to p = 4 the
-  /// compiler spills three numbers at most with two registers for each of these and 22 for all else.
+  /// compiler spills one number at most with two registers for each of these and 22 for all else.
   int wanted_registers() const {
     constexpr int in_number = 2, other = 22;
     int functions = 0, stored = 0, most = 0;
@@ -338,13 +338,23 @@ class CellPrinter {
     line("  HG_UNROLL for (int s = 0; s < slots; s++) {{");
     line("    points[s] = at.point(step, s);");
     line("    read_coordinates<{}>(job.facts.points, at, points[s], x[s]);", dim_);
-    line("    if (!at.has(points[s])) continue;");
+    if (!reads_late()) {
+      line("    if (!at.has(points[s])) continue;");
+      read_stored();
+    }
+    line("  }}");
+  }
+  void read_stored() {
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
       if (!assembly_.is_read(field) || is_evaluated(field)) continue;
       line("    {}", stored_input(i, "points[s]", fmt::format("ins{}[s]", i)));
     }
-    line("  }}");
+  }
+  /// Whether what is stored is read when it is wanted: where registers are short in any case.
+  bool reads_late() const {
+    constexpr int many_registers = 168;
+    return assembly_.applies() && wanted_registers() > many_registers;
   }
   void evaluate_and_call() {
     for (std::size_t f = 0; f < functions_.size(); f++) {
@@ -369,6 +379,7 @@ class CellPrinter {
         line("    HG_UNROLL for (int i = 0; i < {}; i++) outs{}[s][i] = 0;", size, o);
     }
     line("    if (!at.has(points[s])) continue;");
+    if (reads_late()) read_stored();
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       if (assembly_.is_read(program_.inputs[i])) line("    CeedScalar *const in{} = ins{}[s];", i, first_of(i));
     }
