@@ -213,9 +213,7 @@ std::unique_ptr<gpu::Calls> Emulator::make_calls() {
   struct InOrder : gpu::Calls {
     explicit InOrder(Emulator &device) : device(device) {}
     void launch(std::span<const gpu::Call> calls) override {
-      for (const std::size_t i : device.order_of(calls.size())) {
-        device.launch(calls[i].kernel, calls[i].launch, calls[i].job.data(), calls[i].job.size());
-      }
+      for (const std::size_t i : device.order_of(calls.size())) device.make(calls[i]);
     }
     Emulator &device;
   };

@@ -103,8 +103,9 @@ class CellPrinter {
   /// Threads of a cell, points of a thread, and shared memory: first what each thread has, then what each cell has.
   bool lay_out() {
     text_.num_threads = block_.num_threads;
+    list_nodes();
     choose_lanes();
-    CeedInt of_thread = 0, of_cell = 0;
+    CeedInt of_thread = 0;
     for (const CeedInt space : assembly_.spaces()) {
       Functions &f = functions_[spaces_[space].functions];
       if (f.is_kept) continue;
@@ -119,36 +120,38 @@ class CellPrinter {
     }
     for (std::size_t i = 0; sums_in_shared_ && i < integrations_.size(); i++) {
       declarations_ += fmt::format("  constexpr int sums_of{} = threads * {};\n", i, of_thread);
-      of_thread += num_sums(integrations_[i]);
+      of_thread += num_sums(integrations_[i], lanes_);
     }
     of_thread += of_thread % 2;
-    std::vector<CeedInt> places(program_.num_sources, -1);
-    for (const Evaluation &e : evaluations_) {
-      if (places[e.side] >= 0) continue;
-      places[e.side] = of_cell;
-      of_cell += cell_size(spaces_[e.space]);
-    }
-    for (CeedInt s = 0; s < program_.num_sources; s++) {
-      if (places[s] < 0) continue;
+    for (const Nodes &nodes : nodes_) {
       declarations_ +=
-          fmt::format("  const SharedArray nodes{} = shared + (threads * {} + thread() / cell_lanes * {} + {});\n", s,
-                      of_thread, of_cell, places[s]);
+          fmt::format("  const SharedArray nodes{} = shared + (threads * {} + thread() / cell_lanes * {} + {});\n",
+                      nodes.side, of_thread, of_cell_, nodes.place);
     }
-    const auto bytes = [&] {
-      const CeedInt cells = text_.num_threads / lanes_;
-      return (static_cast<std::size_t>(of_thread) * text_.num_threads + static_cast<std::size_t>(of_cell) * cells) *
-             sizeof(CeedScalar);
-    };
     // Several blocks are to find room.
-    const auto is_much = [&] { return bytes() > block_.shared_bytes / 3; };
+    const auto is_much = [&] { return bytes(of_thread, lanes_) > block_.shared_bytes / 3; };
     while (is_much() && text_.num_threads > block_.warp_size) text_.num_threads -= block_.warp_size;
-    text_.shared_bytes = bytes();
+    text_.shared_bytes = bytes(of_thread, lanes_);
     text_.num_elem = text_.num_threads / lanes_;
     text_.points_of_step = lanes_ * slots_;
     constexpr int most_blocks = 32, most_threads = 2048;  // of a processor
     const int most = assembly_.applies() ? std::min(most_blocks, most_threads / text_.num_threads) : 1;
     while (text_.num_blocks < most && registers(text_.num_blocks + 1) >= wanted_registers()) text_.num_blocks++;
     return text_.shared_bytes <= block_.shared_bytes;
+  }
+  /// The nodes that a cell has in shared memory, of each source once.
+  void list_nodes() {
+    for (const Evaluation &e : evaluations_) {
+      if (std::any_of(nodes_.begin(), nodes_.end(), [&](const Nodes &nodes) { return nodes.side == e.side; })) continue;
+      nodes_.push_back({.side = e.side, .space = e.space, .place = of_cell_});
+      of_cell_ += cell_size(spaces_[e.space]);
+    }
+  }
+  /// Shared memory of a block, with so many numbers for each thread and lanes for each cell.
+  std::size_t bytes(CeedInt of_thread, CeedInt lanes) const {
+    const CeedInt cells = text_.num_threads / lanes;
+    return (static_cast<std::size_t>(of_thread) * text_.num_threads + static_cast<std::size_t>(of_cell_) * cells) *
+           sizeof(CeedScalar);
   }
   /// A matrix is taken by a whole warp. Else two points for a thread, which share what they read of the nodes, where
   /// registers have room for them, and cells have points for them.
@@ -158,7 +161,7 @@ class CellPrinter {
     if (assembly_.contracts()) return;
     for (slots_ = block_.slots > 0 ? block_.slots : 2;; slots_ = 1) {
       lanes_ = block_.lanes > 0 ? std::min(block_.lanes, block_.warp_size) : lanes_of_cell();
-      sums_in_shared_ = num_sums() > most_sums;
+      sums_in_shared_ = num_sums(lanes_) > most_sums;
       if (slots_ == block_.slots || slots_ == 1) return;
       if (wanted_registers() <= few_registers && places_of_point(lanes_) <= most_places) return;
     }
@@ -166,26 +169,18 @@ class CellPrinter {
   /// As many as leave few without a point (5 % more of these are worth twice as many lanes, which have smaller shares);
   /// and more, as long as half of them have one, where the nodes of a block's cells, and sums, would take too much of
   /// shared memory for several blocks.
-  CeedInt lanes_of_cell() {
+  CeedInt lanes_of_cell() const {
     constexpr CeedInt fewest = 4, most = 16;
     constexpr double more = 1.05;
     const double least = more * places_of_point(fewest);
     CeedInt wanted = fewest;
     while (wanted < most && places_of_point(wanted * 2) <= least) wanted *= 2;
-    CeedInt of_cell = 0;
-    std::vector<CeedInt> sides;
-    for (const Evaluation &e : evaluations_) {
-      if (std::find(sides.begin(), sides.end(), e.side) != sides.end()) continue;
-      sides.push_back(e.side);
-      of_cell += cell_size(spaces_[e.space]);
-    }
-    const auto bytes = [&](CeedInt lanes) {
-      lanes_ = lanes;
-      const CeedInt sums = num_sums() > most_sums ? num_sums() : 0;
-      return (of_cell * (text_.num_threads / lanes) + sums * text_.num_threads) * sizeof(CeedScalar);
+    const auto bytes_with = [&](CeedInt lanes) {
+      const CeedInt sums = num_sums(lanes);
+      return bytes(sums > most_sums ? sums : 0, lanes);
     };
-    while (wanted < block_.warp_size && bytes(wanted) > block_.shared_bytes / 5 && bytes(2 * wanted) < bytes(wanted) &&
-           places_of_point(2 * wanted) <= most_places) {
+    while (wanted < block_.warp_size && bytes_with(wanted) > block_.shared_bytes / 5 &&
+           bytes_with(2 * wanted) < bytes_with(wanted) && places_of_point(2 * wanted) <= most_places) {
       wanted *= 2;
     }
     return wanted;
@@ -210,15 +205,15 @@ class CellPrinter {
     return s.P <= longest && in_plane * s.P * s.num_comp <= most ? in_plane : 1;
   }
   /// Numbers of a lane's sums, as CellSums has them.
-  CeedInt num_sums(const Evaluation &e) const {
+  CeedInt num_sums(const Evaluation &e, CeedInt lanes) const {
     const Space &s = spaces_[e.space];
     CeedInt share = lines_at_once(s) * s.P * s.num_comp;
-    for (CeedInt group = lanes_; group > 1; group /= 2) share = (share + 1) / 2;
+    for (CeedInt group = lanes; group > 1; group /= 2) share = (share + 1) / 2;
     return CeedIntPow(s.P, dim_ - 1) / lines_at_once(s) * share;
   }
-  CeedInt num_sums() const {
+  CeedInt num_sums(CeedInt lanes) const {
     return std::accumulate(integrations_.begin(), integrations_.end(), CeedInt{0},
-                           [&](CeedInt sum, const Evaluation &e) { return sum + num_sums(e); });
+                           [&](CeedInt sum, const Evaluation &e) { return sum + num_sums(e, lanes); });
   }
   /// What a thread has at hand at once: the functions of its points, its sums over steps, and what the evaluation of a
   /// field, with two lines of nodes, or a part of its integration works with. For all bake-off problems up to p = 4 the
@@ -248,7 +243,7 @@ class CellPrinter {
                 in_plane = e.derivative >= 0 ? dim_ : 1;
       most = std::max(most, slots_ * (flux + in_plane) * s.num_comp + lines_at_once(s) * s.P * s.num_comp);
     }
-    return other + in_number * (slots_ * functions + (sums_in_shared_ ? 0 : num_sums()) + most);
+    return other + in_number * (slots_ * functions + (sums_in_shared_ ? 0 : num_sums(lanes_)) + most);
   }
   /// Of a thread, where a processor holds so many blocks: a quarter of its 65536 are for a quarter of the warps.
   int registers(int num_blocks) const {
@@ -299,11 +294,8 @@ class CellPrinter {
 
   void print_cells() {
     line("const CellLanes at(job.facts);");
-    std::vector<bool> is_read(program_.num_sources);
-    for (const Evaluation &e : evaluations_) {
-      if (is_read[e.side]) continue;
-      is_read[e.side] = true;
-      line("read_cell<{}>(job.sources[{}], at, nodes{});", cell_of(spaces_[e.space]), e.side, e.side);
+    for (const Nodes &nodes : nodes_) {
+      line("read_cell<{}>(job.sources[{}], at, nodes{});", cell_of(spaces_[nodes.space]), nodes.side, nodes.side);
     }
     for (std::size_t i = 0; i < integrations_.size(); i++) {
       const Space &s = spaces_[integrations_[i].space];
@@ -420,7 +412,11 @@ class CellPrinter {
   const CeedProgram &program_;
   const FunctionText &function_;
   AssemblyText assembly_;
-  CeedInt dim_ = 0, lanes_ = 1, slots_ = 1;
+  struct Nodes {
+    CeedInt side, space, place;
+  };
+  std::vector<Nodes> nodes_;
+  CeedInt dim_ = 0, lanes_ = 1, slots_ = 1, of_cell_ = 0;
   static constexpr CeedInt most_sums = 9;  ///< that registers are to keep over all steps of a cell
   static constexpr double most_places = 2;  ///< for a point
   bool sums_in_shared_ = false;

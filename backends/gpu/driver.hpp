@@ -49,6 +49,8 @@ struct Launch {
   int num_threads;               ///< of a block
   std::size_t shared_bytes = 0;  ///< of a block
   bool has_barriers = false;     ///< whether threads wait for each other
+
+  bool operator==(const Launch &) const = default;
 };
 
 /// A kernel to be called with its one argument, the bytes of a struct of text/jobs.hpp.
@@ -104,6 +106,7 @@ class Driver {
   virtual std::unique_ptr<Module> compile(const std::string &name, const std::string &text) = 0;
   /// Calls a kernel with its one argument, a struct of text/jobs.hpp, which is copied.
   virtual void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) = 0;
+  void make(const Call &call) { launch(call.kernel, call.launch, call.job.data(), call.job.size()); }
   /// The driver is there as long as these are. Here: one after another.
   virtual std::unique_ptr<Calls> make_calls();
 
@@ -118,7 +121,7 @@ inline std::unique_ptr<Calls> Driver::make_calls() {
   struct OneByOne : Calls {
     explicit OneByOne(Driver &driver) : driver(driver) {}
     void launch(std::span<const Call> calls) override {
-      for (const Call &call : calls) driver.launch(call.kernel, call.launch, call.job.data(), call.job.size());
+      for (const Call &call : calls) driver.make(call);
     }
     Driver &driver;
   };

@@ -223,9 +223,11 @@ class ElementPrinter {
     const Shape nodes = nodes_of(e.space), points = points_of(e.space);
     const int source = sources_[e.side];
     int phase = 1;
-    const auto derivative_array = [&] {
-      const int array = new_array("derivative", points, program_.inputs[e.derivative].size / points.num_comp);
-      inputs_[e.derivative] = {array, points};
+    // `column`: values whose derivatives along z are taken column by column, and are in no array; or -1.
+    const auto derivative_array = [&](int column = -1) {
+      const CeedInt count = program_.inputs[e.derivative].size / points.num_comp - (column >= 0 ? 1 : 0);
+      const int array = new_array("derivative", points, count);
+      inputs_[e.derivative] = {array, points, column};
       return array;
     };
     switch (basis.route) {
@@ -239,10 +241,8 @@ class ElementPrinter {
         if (e.interp >= 0) inputs_[e.interp] = {values, points};
         if (e.derivative < 0) break;
         const bool by_columns = is_by_columns(e);
-        const CeedInt num_arrays = by_columns ? dim - 1 : dim;
-        const int array = new_array("derivative", points, num_arrays);
-        inputs_[e.derivative] = {array, points, by_columns ? values : -1};
-        for (CeedInt g = 0; g < num_arrays; g++) {
+        const int array = derivative_array(by_columns ? values : -1);
+        for (CeedInt g = 0; g < (by_columns ? dim - 1 : dim); g++) {
           phases_.step(phase, contract(g, false, false, points, points, grad_of(e.space), phases_.use(values, phase),
                                        use(array, phase, points, g)));
         }
@@ -302,18 +302,10 @@ class ElementPrinter {
         int phase = start, values = -1;
         bool has_values = false;
         const bool is_identity = basis.route == Route::identity, by_columns = is_by_columns(e);
-        if (by_columns) {
-          // What columns have left is there already, and all else is added to it.
-          values = columns_of_outputs_[e.derivative];
-          has_values = true;
-          if (e.interp >= 0) {
-            phases_.step(phase, fmt::format("add_array<{}>(count, {}, {});", points.type(), output(e.interp, phase),
-                                            phases_.use(values, phase)));
-            phase++;
-          }
-        } else if (is_identity && add) {
-          values = sums_[e.side];
-          phase = std::max(phase, sum_free_from);
+        if (by_columns || (is_identity && add)) {
+          // What columns have left, or another integration, is there already, and all else is added to it.
+          values = by_columns ? columns_of_outputs_[e.derivative] : sums_[e.side];
+          if (!by_columns) phase = std::max(phase, sum_free_from);
           has_values = true;
           if (e.interp >= 0) {
             phases_.step(phase, fmt::format("add_array<{}>(count, {}, {});", points.type(), output(e.interp, phase),

@@ -292,10 +292,7 @@ class VendorGraph : public Calls {
     if (!std::equal(calls.begin(), calls.end(), calls_made_.begin(), calls_made_.end(), is_of_kernel)) make(calls);
     for (std::size_t i = 0; i < calls.size(); i++) {
       const Call &now = calls[i], &then = calls_made_[i];
-      const bool is_the_same = now.job == then.job && now.launch.num_blocks == then.launch.num_blocks &&
-                               now.launch.num_threads == then.launch.num_threads &&
-                               now.launch.shared_bytes == then.launch.shared_bytes;
-      if (is_the_same) continue;
+      if (now.job == then.job && now.launch == then.launch) continue;
       with_kernel(now, [&](const GraphKernel &kernel) {
         driver_.check(calls_.change(executable_, nodes_[i], &kernel), "a graph's kernel cannot be changed");
       });
