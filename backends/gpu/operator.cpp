@@ -138,28 +138,23 @@ bool adds_atomically(const CeedProgram &program) {
 /// Parts that are one kernel each are launched as one. Those that are not come first, so that no array changes its
 /// place or is copied between the making of a call and its launch.
 int apply_add_parts(CeedOperator composite, CeedInt num_parts, const CeedOperator *parts,
-                    const CeedProgram *const *programs, CeedVector in, CeedVector out) {
+                    const CeedProgram *const *programs, const CeedVector *in, const CeedVector *out) {
   const Ceed ceed = CeedOperatorReturnCeed(composite);
   return wall(ceed, [&] {
-    std::vector<std::pair<FusedOperator *, const CeedProgram *>> joined;
+    std::vector<std::pair<FusedOperator *, CeedInt>> joined;  // and the parts' numbers
     for (CeedInt i = 0; i < num_parts; i++) {
       FusedOperator *fused = fused_of(parts[i], *programs[i], Purpose::apply);
       if (fused == nullptr) {
-        const auto is_active = [](const CeedProgramSide &side) { return side.is_active; };
-        const CeedProgram &program = *programs[i];
-        const bool takes_in = std::any_of(program.sources, program.sources + program.num_sources, is_active);
-        const bool gives_out = std::any_of(program.sinks, program.sinks + program.num_sinks, is_active);
-        apply_staged(parts[i], program, takes_in ? in : CEED_VECTOR_NONE, gives_out ? out : CEED_VECTOR_NONE,
-                     CEED_APPLY_ADD_ALL);
+        apply_staged(parts[i], *programs[i], in[i], out[i], CEED_APPLY_ADD_ALL);
       } else if (adds_atomically(*programs[i])) {
-        joined.emplace_back(fused, programs[i]);
+        joined.emplace_back(fused, i);
       } else {
-        fused->apply_add(*programs[i], in, out, CEED_APPLY_ADD_ALL);
+        fused->apply_add(*programs[i], in[i], out[i], CEED_APPLY_ADD_ALL);
       }
     }
     std::vector<Call> calls;
-    for (const auto &[fused, program] : joined) {
-      calls.push_back(fused->call_of(*program, in, out, CEED_APPLY_ADD_ALL));
+    for (const auto &[fused, i] : joined) {
+      calls.push_back(fused->call_of(*programs[i], in[i], out[i], CEED_APPLY_ADD_ALL));
       if (calls.back().launch.num_blocks == 0) calls.pop_back();
     }
     Device &device = Device::of(ceed);
@@ -167,7 +162,7 @@ int apply_add_parts(CeedOperator composite, CeedInt num_parts, const CeedOperato
     auto &kept = own_kept_of(composite).parts;
     if (kept == nullptr) kept = device.driver().make_calls();
     if (!calls.empty()) kept->launch(calls);
-    for (const auto &[fused, program] : joined) fused->check(*program);
+    for (const auto &[fused, i] : joined) fused->check(*programs[i]);
   });
 }
 

@@ -80,12 +80,25 @@ bool depend_on_each_other(const std::vector<const CeedProgram *> &programs, Ceed
   return false;
 }
 
+bool has_active(const CeedProgramSide *sides, CeedInt count) {
+  return std::any_of(sides, sides + count, [](const CeedProgramSide &side) { return side.is_active; });
+}
+
+/// What a single operator is applied to: CEED_VECTOR_NONE where it has no active input, or output.
+CeedVector input_of(const CeedProgram &program, CeedVector in) {
+  return has_active(program.sources, program.num_sources) ? in : CEED_VECTOR_NONE;
+}
+CeedVector output_of(const CeedProgram &program, CeedVector out) {
+  return has_active(program.sinks, program.num_sinks) ? out : CEED_VECTOR_NONE;
+}
+
 /// All parts of a composite at once, where the backend takes that: else false.
 bool apply_parts(CeedOperator_private &composite, CeedVector in, CeedVector out) {
   const auto apply_add_parts = composite.ceed->ops.op.apply_add_parts;
   if (apply_add_parts == nullptr || is_sequential(composite)) return false;
   std::vector<CeedOperator> parts;
   std::vector<const CeedProgram *> programs;
+  std::vector<CeedVector> inputs, outputs;
   bool are_of_one_ceed = true;
   hg::for_each_single(composite, [&](CeedOperator_private &single) {
     const CeedProgram &program = hg::program_of(single);
@@ -93,10 +106,13 @@ bool apply_parts(CeedOperator_private &composite, CeedVector in, CeedVector out)
     are_of_one_ceed = are_of_one_ceed && single.ceed.get() == composite.ceed.get();
     parts.push_back(&single);
     programs.push_back(&program);
+    inputs.push_back(input_of(program, in));
+    outputs.push_back(output_of(program, out));
   });
   if (!are_of_one_ceed || parts.size() < 2 || depend_on_each_other(programs, in)) return false;
   composite.is_joined = true;
-  hg::check(apply_add_parts(&composite, static_cast<CeedInt>(parts.size()), parts.data(), programs.data(), in, out));
+  hg::check(apply_add_parts(&composite, static_cast<CeedInt>(parts.size()), parts.data(), programs.data(),
+                            inputs.data(), outputs.data()));
   return true;
 }
 
@@ -126,11 +142,7 @@ void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passiv
   hg::for_each_single(*op, [&](CeedOperator_private &single) {
     const CeedProgram &program = hg::program_of(single);
     if (program.num_elem == 0 && mode == CEED_APPLY_ADD_ALL) return;
-    const auto is_active = [](const CeedProgramSide &side) { return side.is_active; };
-    const bool takes_in = std::any_of(program.sources, program.sources + program.num_sources, is_active);
-    const bool gives_out = std::any_of(program.sinks, program.sinks + program.num_sinks, is_active);
-    hg::check(single.ceed->ops.op.apply_add(&single, &program, takes_in ? in : CEED_VECTOR_NONE,
-                                            gives_out ? out : CEED_VECTOR_NONE, mode));
+    hg::check(single.ceed->ops.op.apply_add(&single, &program, input_of(program, in), output_of(program, out), mode));
   });
 }
 

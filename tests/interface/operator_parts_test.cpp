@@ -2,7 +2,6 @@
 #include <ceed/plugin.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -19,16 +18,11 @@ std::vector<CeedInt> num_joined;  ///< parts of each composite that came as a wh
 int num_destroyed = 0;            ///< composites among the operators that were destroyed
 
 int apply_add_parts(CeedOperator composite, CeedInt num_parts, const CeedOperator *parts,
-                    const CeedProgram *const *programs, CeedVector in, CeedVector out) {
+                    const CeedProgram *const *programs, const CeedVector *in, const CeedVector *out) {
   num_joined.push_back(num_parts);
   CeedCallBackend(CeedOperatorSetData(composite, &parent));
   for (CeedInt i = num_parts - 1; i >= 0; i--) {  // in any order
-    const auto is_active = [](const CeedProgramSide &side) { return side.is_active; };
-    const CeedProgram &program = *programs[i];
-    const bool takes_in = std::any_of(program.sources, program.sources + program.num_sources, is_active);
-    const bool gives_out = std::any_of(program.sinks, program.sinks + program.num_sinks, is_active);
-    CeedCallBackend(parent.op.apply_add(parts[i], &program, takes_in ? in : CEED_VECTOR_NONE,
-                                        gives_out ? out : CEED_VECTOR_NONE, CEED_APPLY_ADD_ALL));
+    CeedCallBackend(parent.op.apply_add(parts[i], programs[i], in[i], out[i], CEED_APPLY_ADD_ALL));
   }
   return CEED_ERROR_SUCCESS;
 }

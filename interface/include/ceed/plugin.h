@@ -14,7 +14,7 @@
 
 /// Version of this file: it grows with every change of a struct or of what an entry means. A plugin of another version
 /// is refused.
-#define CEED_PLUGIN_API_VERSION 4u
+#define CEED_PLUGIN_API_VERSION 5u
 
 #ifdef __cplusplus
 extern "C" {
@@ -202,11 +202,11 @@ typedef struct {
   int (*apply_add)(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// Optional: apply_add() with CEED_APPLY_ADD_ALL of the num_parts single operators of a `composite` that is not
   /// sequential, in any order or at once: none reads what another one writes. They and the composite are of one Ceed,
-  /// and parts[i] has programs[i]. in, out: for those parts that have an active input or output. CeedOperatorGetData() of
-  /// the composite is NULL at first, and its destroy() and get_memory() are called once this was. Who replaces apply_add() replaces this one as well, if only by NULL, which stands for
-  /// one after another.
+  /// and parts[i] has programs[i] and is applied to in[i] and out[i]. CeedOperatorGetData() of the composite is NULL at
+  /// first, and its destroy() and get_memory() are called once this was. Who replaces apply_add() replaces this one as
+  /// well, if only by NULL, which stands for one after another.
   int (*apply_add_parts)(CeedOperator composite, CeedInt num_parts, const CeedOperator *parts,
-                         const CeedProgram *const *programs, CeedVector in, CeedVector out);
+                         const CeedProgram *const *programs, const CeedVector *in, const CeedVector *out);
   /// The QFunction's matrix at each point of the elements [first_elem, first_elem + num_elem): num_active_in *
   /// num_active_out components, component i*num_active_out + o. At quadrature points (point, component, element), point
   /// fastest; at points one element after another, component fastest. `values` may be longer than that.
