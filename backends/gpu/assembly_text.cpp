@@ -10,9 +10,10 @@ AssemblyText::AssemblyText(const CeedProgram &program, Purpose purpose) : progra
   if (purpose == Purpose::apply || purpose == Purpose::qfunction) return;
   is_taken_ = find(program.inputs, program.num_inputs, program.sources, trials_) &&
               find(program.outputs, program.num_outputs, program.sinks, tests_);
-  if (purpose == Purpose::matrix || !is_taken_) return;
-  is_taken_ = trials_.size() == 1 && tests_.size() == 1 &&
-              program.sources[trials_[0].side].rstr == program.sinks[tests_[0].side].rstr;
+}
+
+bool AssemblyText::are_coupled(const Active &trial, const Active &test) const {
+  return purpose_ == Purpose::matrix || program_.sources[trial.side].rstr == program_.sinks[test.side].rstr;
 }
 
 bool AssemblyText::find(const CeedProgramField *fields, CeedInt count, const CeedProgramSide *sides,
@@ -89,6 +90,7 @@ std::vector<std::string> AssemblyText::contraction_lines(
     const FunctionsText trials = functions_of(trial.space);
     const std::string trial_rows = rows(program_.inputs, program_.num_inputs, trial, trials);
     for (const Active &test : tests_) {
+      if (!are_coupled(trial, test)) continue;
       const FunctionsText tests = functions_of(test.space);
       const CeedInt M = length_of(tests), N = length_of(trials);
       const std::string types = fmt::format("{}, {}, {}, {}", rows(program_.outputs, program_.num_outputs, test, tests),

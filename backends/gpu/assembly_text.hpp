@@ -29,8 +29,7 @@ class AssemblyText {
  public:
   AssemblyText(const CeedProgram &program, Purpose purpose);
 
-  /// Not taken: active fields that go through no basis, or through several; diagonals, unless there is one active input
-  /// and one active output with the same restriction.
+  /// Not taken: active fields that go through no basis, or through several.
   bool is_taken() const { return is_taken_; }
   /// No assembly at all: the operator is applied.
   bool applies() const { return purpose_ == Purpose::apply; }
@@ -55,6 +54,9 @@ class AssemblyText {
   struct Active {
     CeedInt side, space, num_comp;
   };
+  /// Whether there are entries for an input and an output. On diagonals not where these have different restrictions:
+  /// elements must not meet an entry of the L-vector in both.
+  bool are_coupled(const Active &trial, const Active &test) const;
   bool find(const CeedProgramField *fields, CeedInt count, const CeedProgramSide *sides, std::vector<Active> &active);
   static std::string rows(const CeedProgramField *fields, CeedInt count, const Active &active,
                           const FunctionsText &functions);

@@ -17,11 +17,11 @@ namespace {
 
 class CellPrinter {
  public:
-  CellPrinter(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose)
+  CellPrinter(const Block &block, const CeedProgram &program, const FunctionText &function, AssemblyText assembly)
       : block_(block),
         program_(program),
         function_(function),
-        assembly_(program, purpose),
+        assembly_(std::move(assembly)),
         spaces_(program.num_spaces) {
     chk(CeedElemRestrictionGetNumComponents(program.points_rstr, &dim_));
     for (CeedInt i = 0; i < program.num_spaces; i++) {
@@ -430,8 +430,10 @@ class CellPrinter {
 }  // namespace
 
 OperatorText cells_text(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose) {
-  if (!is_taken(program) || program.num_outputs == 0 || !AssemblyText(program, purpose).is_taken()) return {};
-  return CellPrinter(block, program, function, purpose).print();
+  if (!is_taken(program) || program.num_outputs == 0) return {};
+  AssemblyText assembly(program, purpose);
+  if (!assembly.is_taken()) return {};
+  return CellPrinter(block, program, function, std::move(assembly)).print();
 }
 
 }  // namespace hg::gpu

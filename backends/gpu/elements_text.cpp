@@ -29,8 +29,8 @@ struct Shape {
 
 class ElementPrinter {
  public:
-  ElementPrinter(const Block &block, const CeedProgram &program, const FunctionText &function, Purpose purpose)
-      : block_(block), program_(program), function_(function), assembly_(program, purpose) {
+  ElementPrinter(const Block &block, const CeedProgram &program, const FunctionText &function, AssemblyText assembly)
+      : block_(block), program_(program), function_(function), assembly_(std::move(assembly)) {
     for (CeedInt i = 0; i < program.num_spaces; i++) bases_.emplace_back(program.spaces[i].basis);
   }
 
@@ -565,8 +565,9 @@ class ElementPrinter {
 OperatorText elements_text(const Block &block, const CeedProgram &program, const FunctionText &function,
                            Purpose purpose) {
   if (!is_taken(program) || program.num_qpts == 0 || program.num_outputs == 0) return {};
-  if (!AssemblyText(program, purpose).is_taken()) return {};
-  return ElementPrinter(block, program, function, purpose).print();
+  AssemblyText assembly(program, purpose);
+  if (!assembly.is_taken()) return {};
+  return ElementPrinter(block, program, function, std::move(assembly)).print();
 }
 
 }  // namespace hg::gpu

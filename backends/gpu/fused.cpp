@@ -66,18 +66,32 @@ std::vector<CeedInt> cells_with_points(const CeedElementMap &map, CeedInt points
   return cells;
 }
 
-/// Whether two components of nodes of one element are one entry of the L-vector.
-bool meets_itself(CeedElemRestriction rstr) {
-  const CeedElementMap &map = map_of(rstr);
-  std::vector<CeedInt> last_elem(map.l_size, -1);
-  for (CeedInt e = 0; e < map.num_elem; e++) {
-    for (CeedInt n = 0; n < map.elem_size; n++) {
-      const CeedSize node = map.offsets != nullptr
-                                ? map.offsets[static_cast<CeedSize>(e) * map.elem_size + n]
-                                : static_cast<CeedSize>(n) * map.strides[0] + static_cast<CeedSize>(e) * map.strides[2];
-      for (CeedInt c = 0; c < map.num_comp; c++) {
-        const CeedSize step = map.offsets != nullptr ? map.comp_stride : map.strides[1];
-        if (std::exchange(last_elem[node + c * step], e) == e) return true;
+/// Whether an element meets an entry of the L-vectors twice in active fields with different restrictions, or in one.
+bool meets_entries_twice(const CeedProgram &program) {
+  std::vector<CeedElemRestriction> spaces;
+  const auto find = [&](const CeedProgramSide *sides, CeedInt count) {
+    for (CeedInt i = 0; i < count; i++) {
+      const bool is_new = std::find(spaces.begin(), spaces.end(), sides[i].rstr) == spaces.end();
+      if (sides[i].is_active && is_new) spaces.push_back(sides[i].rstr);
+    }
+  };
+  find(program.sources, program.num_sources);
+  find(program.sinks, program.num_sinks);
+  CeedSize length = 0;
+  for (CeedElemRestriction rstr : spaces) length = std::max(length, map_of(rstr).l_size);
+  std::vector<CeedInt> last_elem(length, -1);
+  for (CeedInt e = 0; e < program.num_elem; e++) {
+    for (CeedElemRestriction rstr : spaces) {
+      const CeedElementMap &map = map_of(rstr);
+      const bool is_strided = map.offsets == nullptr;
+      const CeedSize step = is_strided ? map.strides[1] : map.comp_stride;
+      for (CeedInt n = 0; n < map.elem_size; n++) {
+        const CeedSize node =
+            is_strided ? static_cast<CeedSize>(n) * map.strides[0] + static_cast<CeedSize>(e) * map.strides[2]
+                       : static_cast<CeedSize>(map.offsets[static_cast<CeedSize>(e) * map.elem_size + n]);
+        for (CeedInt c = 0; c < map.num_comp; c++) {
+          if (std::exchange(last_elem[node + c * step], e) == e) return true;
+        }
       }
     }
   }
@@ -104,9 +118,7 @@ std::unique_ptr<FusedOperator> FusedOperator::make(Device &device, const CeedPro
   OperatorText text = program.at_points ? cells_text(block, program, function, purpose)
                                         : elements_text(block, program, function, purpose);
   if (text.text.empty()) return nullptr;
-  for (CeedInt t = 0; is_diagonal(purpose) && t < program.num_sinks; t++) {
-    if (program.sinks[t].is_active && meets_itself(program.sinks[t].rstr)) return nullptr;
-  }
+  if (is_diagonal(purpose) && meets_entries_twice(program)) return nullptr;
   return std::unique_ptr<FusedOperator>(new FusedOperator(device, program, function, std::move(text), purpose));
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bakeoff_operator.hpp"
+#include "qfunctions/coupled.h"
 #include "support/errors.hpp"
 #include "support/handles.hpp"
 #include "support/program.hpp"
@@ -64,6 +65,48 @@ TEST_P(FusedTest, AssemblesQFunctionsOnTheDevice) {
   CeedScalar norm = 0;
   ok(CeedVectorNorm(assembled, CEED_NORM_MAX, &norm));
   EXPECT_EQ(norm, 1);  // what is stored at the points is 1
+}
+
+/// Several active fields: their diagonals, one after another; not where a cell meets an entry in two of them.
+TEST(SeveralFields, HaveTheirDiagonals) {
+  const CeedHandle ceed{open("/gpu/emu/gen")}, host{open("/cpu/self/ref/serial")};
+  // Two cells of a line; the scalar's places come after the vector's, or one is the vector's last one.
+  for (const CeedInt overlap : {0, 1}) {
+    const auto diagonal_of = [&](Ceed on, bool *is_done) {
+      const std::array<CeedInt, 6> places_u{0, 3, 6, 6, 9, 12};
+      const std::array<CeedInt, 4> places_p{17, 16, 16, 15 - overlap};
+      Restriction rstr_u, rstr_p;
+      ok(CeedElemRestrictionCreate(on, 2, 3, 3, 1, 18, CEED_MEM_HOST, CEED_COPY_VALUES, places_u.data(), rstr_u.out()));
+      ok(CeedElemRestrictionCreate(on, 2, 2, 1, 1, 18, CEED_MEM_HOST, CEED_COPY_VALUES, places_p.data(), rstr_p.out()));
+      Basis basis_u, basis_p;
+      ok(CeedBasisCreateTensorH1Lagrange(on, 1, 3, 3, 3, CEED_GAUSS, basis_u.out()));
+      ok(CeedBasisCreateTensorH1Lagrange(on, 1, 1, 2, 3, CEED_GAUSS, basis_p.out()));
+      QFunction qf;
+      ok(CeedQFunctionCreateInterior(on, 1, coupled, coupled_loc, qf.out()));
+      ok(CeedQFunctionAddInput(qf, "u", 3, CEED_EVAL_INTERP));
+      ok(CeedQFunctionAddInput(qf, "p", 1, CEED_EVAL_INTERP));
+      ok(CeedQFunctionAddOutput(qf, "v", 3, CEED_EVAL_INTERP));
+      ok(CeedQFunctionAddOutput(qf, "q", 1, CEED_EVAL_INTERP));
+      Operator op;
+      ok(CeedOperatorCreate(on, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
+      for (const char *name : {"u", "v"}) ok(CeedOperatorSetField(op, name, rstr_u, basis_u, CEED_VECTOR_ACTIVE));
+      for (const char *name : {"p", "q"}) ok(CeedOperatorSetField(op, name, rstr_p, basis_p, CEED_VECTOR_ACTIVE));
+      const Vector diagonal = make_vector(on, 18, 0);
+      if (is_done != nullptr) {
+        const CeedBackendOps *ops = nullptr;
+        const CeedProgram *program = nullptr;
+        ok(CeedGetBackendOps(on, &ops));
+        ok(CeedOperatorGetProgram(op, &program));
+        ok(ops->op.linear_assemble(op, program, CEED_ASSEMBLE_DIAGONAL, 0, diagonal, is_done));
+      }
+      ok(CeedOperatorLinearAssembleDiagonal(op, diagonal, CEED_REQUEST_IMMEDIATE));
+      return values_of(diagonal);
+    };
+    bool is_done = false;
+    const Values got = diagonal_of(ceed, &is_done);
+    EXPECT_EQ(is_done, overlap == 0);
+    expect_close(got, diagonal_of(host, nullptr), 1e-13, "diagonal");
+  }
 }
 
 /// The parts of a composite are launched as one, with what they were last time; their sum is that of one by one.
