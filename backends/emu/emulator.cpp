@@ -184,6 +184,10 @@ void Emulator::copy(void *to, const void *from, std::size_t bytes) {
   if (bytes > 0) std::memmove(to, from, bytes);
 }
 
+void Emulator::clear(void *memory, std::size_t bytes) {
+  if (bytes > 0) std::memset(memory, 0, bytes);
+}
+
 std::unique_ptr<gpu::Module> Emulator::compile(const std::string &name, const std::string &text) {
   jit::Cache::Request request{
       .text =

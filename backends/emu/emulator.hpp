@@ -30,6 +30,7 @@ class Emulator : public gpu::Driver {
   void *allocate(std::size_t bytes) override;
   void free(void *memory) noexcept override;
   void copy(void *to, const void *from, std::size_t bytes) override;
+  void clear(void *memory, std::size_t bytes) override;
   void set_stream(void *) override {}
   std::unique_ptr<gpu::Module> compile(const std::string &name, const std::string &text) override;
   void launch(gpu::Kernel kernel, const gpu::Launch &launch, const void *job, std::size_t job_bytes) override;

@@ -98,8 +98,11 @@ class Driver {
             .bytes_to_host = bytes_to_host_};
   }
   virtual void copy(void *to, const void *from, std::size_t bytes) = 0;
+  /// Bytes become 0.
+  virtual void clear(void *memory, std::size_t bytes) = 0;
 
-  /// The stream (CUstream, hipStream_t) that work is given to from now on.
+  /// The stream (CUstream, hipStream_t) that work is given to from now on, where it begins after what was given to the
+  /// one before. Nobody waits here.
   virtual void set_stream(void *stream) = 0;
 
   /// A text in the language of text/: what the driver says of it comes first. `name` is for messages.

@@ -121,15 +121,16 @@ void *FunctionState::context() {
 
 int *FunctionState::clear_failed() {
   if (!may_fail_) return nullptr;
-  constexpr int none = 0;
-  if (!failed_) failed_ = device_->allocate(sizeof none);
-  device_->driver().copy_to_device(failed_.as<void>(), &none, sizeof none);
+  if (!failed_) failed_ = device_->allocate(sizeof(int));
+  if (!is_clear_) device_->driver().clear(failed_.as<void>(), sizeof(int));
+  is_clear_ = false;  // whatever comes between now and returned()
   return failed_.as<int>();
 }
 
 int FunctionState::returned() {
   int code = 0;
   if (may_fail_) device_->driver().copy_to_host(&code, failed_.as<void>(), sizeof code);
+  is_clear_ = code == 0;
   return code;
 }
 

@@ -45,6 +45,7 @@ class FunctionState {
   CeedQFunction qf_;
   bool may_fail_;
   Buffer context_, failed_;
+  bool is_clear_ = false;                    ///< failed_ is 0
   CeedQFunctionContext uploaded_ = nullptr;  ///< whose data context_ has; held
   std::uint64_t context_state_ = 0;
 };

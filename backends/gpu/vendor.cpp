@@ -101,11 +101,15 @@ int count_devices(const Vendor &vendor, const VendorLibrary &library, const Driv
 class VendorDriver : public Driver {
  public:
   VendorDriver(const Vendor &vendor, int device);
+  VendorDriver(const VendorDriver &) = delete;
+  VendorDriver &operator=(const VendorDriver &) = delete;
+  ~VendorDriver() override;
 
   const Properties &properties() const override { return properties_; }
   void *allocate(std::size_t bytes) override;
   void free(void *memory) noexcept override;
   void copy(void *to, const void *from, std::size_t bytes) override;
+  void clear(void *memory, std::size_t bytes) override;
   void set_stream(void *stream) override;
   std::unique_ptr<Module> compile(const std::string &name, const std::string &text) override;
   void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) override;
@@ -129,6 +133,7 @@ class VendorDriver : public Driver {
   std::vector<std::string> options_;
   void *handle_ = nullptr;
   void *stream_ = nullptr;
+  void *left_ = nullptr;  ///< the event that the stream before is done; NULL: no stream was left yet
 };
 
 /// Code that the driver refuses.
@@ -197,6 +202,11 @@ VendorDriver::VendorDriver(const Vendor &vendor, int device)
   options_ = vendor.options(calls_, device);
 }
 
+VendorDriver::~VendorDriver() {
+  vendor_.make_current(library_, handle_);
+  if (left_ != nullptr) calls_.destroy_event(left_);
+}
+
 void *VendorDriver::allocate(std::size_t bytes) {
   void *memory = nullptr;
   make_current();
@@ -230,10 +240,20 @@ void VendorDriver::copy(void *to, const void *from, std::size_t bytes) {
   check(calls_.copy(to, from, bytes, stream_), "a copy on the device failed");
 }
 
+void VendorDriver::clear(void *memory, std::size_t bytes) {
+  if (bytes == 0) return;
+  make_current();
+  check(calls_.clear(memory, 0, bytes, stream_), "memory cannot be cleared");
+}
+
 void VendorDriver::set_stream(void *stream) {
   if (stream == stream_) return;
   make_current();
-  check(calls_.synchronize(stream_), "work on the device failed");  // what comes next reads what was written there
+  constexpr unsigned without_time = 2;  // in both
+  if (left_ == nullptr) check(calls_.create_event(&left_, without_time), "there is no event");
+  // What comes next reads what was written there.
+  check(calls_.record(left_, stream_), "the stream before is not there any more");
+  check(calls_.wait(stream, left_, 0), "the stream cannot wait for the one before");
   stream_ = stream;
 }
 

@@ -47,7 +47,12 @@ struct DriverCalls {
   int (*to_device)(void *to, const void *from, std::size_t bytes, void *stream);
   int (*to_host)(void *to, const void *from, std::size_t bytes, void *stream);
   int (*copy)(void *to, const void *from, std::size_t bytes, void *stream);
+  int (*clear)(void *memory, unsigned char value, std::size_t bytes, void *stream);
   int (*synchronize)(void *stream);
+  int (*create_event)(void **event, unsigned flags);
+  int (*destroy_event)(void *event);
+  int (*record)(void *event, void *stream);  ///< the event is when what was given to the stream is done
+  int (*wait)(void *stream, void *event, unsigned flags);
   int (*load)(void **module, const void *code);
   int (*unload)(void *module);
   int (*function)(void **function, void *module, const char *name);

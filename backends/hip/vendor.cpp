@@ -10,10 +10,25 @@ constexpr const char *driver_files[] = {"libamdhip64.so", "libamdhip64.so.7", "l
 /// The compiler is a library of its own in newer versions.
 constexpr const char *compiler_files[] = {"libhiprtc.so",     "libhiprtc.so.7",   "libhiprtc.so.6",
                                           "libamdhip64.so.6", "libamdhip64.so.5", "libamdhip64.so"};
-constexpr const char *driver_names[] = {
-    "hipInit",           "hipGetDeviceCount",  "hipDeviceGetName",     "hipDeviceGetAttribute", "hipMalloc",
-    "hipFree",           "hipMemcpyHtoDAsync", "hipMemcpyDtoHAsync",   "hipMemcpyDtoDAsync",    "hipStreamSynchronize",
-    "hipModuleLoadData", "hipModuleUnload",    "hipModuleGetFunction", "hipModuleLaunchKernel"};
+constexpr const char *driver_names[] = {"hipInit",
+                                        "hipGetDeviceCount",
+                                        "hipDeviceGetName",
+                                        "hipDeviceGetAttribute",
+                                        "hipMalloc",
+                                        "hipFree",
+                                        "hipMemcpyHtoDAsync",
+                                        "hipMemcpyDtoHAsync",
+                                        "hipMemcpyDtoDAsync",
+                                        "hipMemsetD8Async",
+                                        "hipStreamSynchronize",
+                                        "hipEventCreateWithFlags",
+                                        "hipEventDestroy",
+                                        "hipEventRecord",
+                                        "hipStreamWaitEvent",
+                                        "hipModuleLoadData",
+                                        "hipModuleUnload",
+                                        "hipModuleGetFunction",
+                                        "hipModuleLaunchKernel"};
 constexpr const char *compiler_names[] = {"hiprtcVersion",           "hiprtcCreateProgram",  "hiprtcCompileProgram",
                                           "hiprtcGetProgramLogSize", "hiprtcGetProgramLog",  "hiprtcGetCodeSize",
                                           "hiprtcGetCode",           "hiprtcDestroyProgram", "hiprtcGetErrorString"};

@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "backends/cuda/vendor.hpp"
@@ -115,15 +116,29 @@ TEST_F(DriverTest, CountsWhatIsCopied) {
   EXPECT_EQ(transfers.bytes_to_host, 24);
 }
 
-TEST_F(DriverTest, WaitsForTheStreamThatItLeaves) {
-  const auto driver = gpu::make_driver(vendor, 0);
+/// On the device: the host goes on.
+TEST_F(DriverTest, LetsAStreamWaitForTheOneBefore) {
+  using Waits = std::vector<std::pair<void *, void *>>;
   int one = 0, other = 0;
-  driver->set_stream(&one);
-  fake_cuda.waited_for.clear();
-  driver->set_stream(&one);
-  EXPECT_TRUE(fake_cuda.waited_for.empty());
-  driver->set_stream(&other);
-  EXPECT_EQ(fake_cuda.waited_for, std::vector<void *>{&one});
+  {
+    const auto driver = gpu::make_driver(vendor, 0);
+    driver->set_stream(&one);
+    EXPECT_EQ(fake_cuda.waits, (Waits{{&one, nullptr}}));
+    driver->set_stream(&one);
+    driver->set_stream(&other);
+    EXPECT_EQ(fake_cuda.waits, (Waits{{&one, nullptr}, {&other, &one}}));
+    EXPECT_EQ(fake_cuda.num_events, 1);
+    EXPECT_TRUE(fake_cuda.waited_for.empty());
+  }
+  EXPECT_EQ(fake_cuda.num_events, 0);
+}
+
+TEST_F(DriverTest, ClearsMemory) {
+  const auto driver = gpu::make_driver(vendor, 0);
+  std::array<double, 3> values{1, 2, 3};
+  driver->clear(values.data(), 2 * sizeof(double));
+  driver->clear(&values[2], 0);
+  EXPECT_EQ(values, (std::array<double, 3>{0, 0, 3}));
 }
 
 TEST_F(DriverTest, RefusesMoreBlocksThanAGridHas) {

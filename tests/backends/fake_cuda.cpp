@@ -111,6 +111,27 @@ int cuMemcpyDtoHAsync_v2(void *to, const void *from, std::size_t bytes, void *) 
 int cuMemcpyDtoDAsync_v2(void *to, const void *from, std::size_t bytes, void *) {
   return copy_now(to, from, bytes);
 }
+int cuMemsetD8Async(void *memory, unsigned char value, std::size_t bytes, void *) {
+  std::memset(memory, value, bytes);
+  return 0;
+}
+int cuEventCreate(void **event, unsigned) {
+  fake_cuda.num_events++;
+  *event = &fake_cuda.recorded;
+  return 0;
+}
+int cuEventDestroy_v2(void *) {
+  fake_cuda.num_events--;
+  return 0;
+}
+int cuEventRecord(void *event, void *stream) {
+  *static_cast<void **>(event) = stream;
+  return 0;
+}
+int cuStreamWaitEvent(void *stream, void *event, unsigned) {
+  fake_cuda.waits.emplace_back(stream, *static_cast<void **>(event));
+  return 0;
+}
 int cuStreamSynchronize(void *stream) {
   fake_cuda.waited_for.push_back(stream);
   return 0;

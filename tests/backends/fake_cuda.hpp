@@ -2,6 +2,7 @@
 /// What the fake of CUDA's libraries is told, and tells.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 /// One driver with two devices, whose memory is the host's and whose kernels do nothing, and one compiler.
@@ -12,7 +13,11 @@ struct FakeCuda {
   int num_launched = 0;            ///< kernels, beside those of graphs
   int refused_loads = 0;           ///< how many times code is refused from now on
   bool is_full = false;            ///< there is no memory left
-  std::vector<void *> waited_for;  ///< streams
+  std::vector<void *> waited_for;  ///< streams, by the host
+  int num_events = 0;              ///< that are there
+  void *recorded = nullptr;        ///< the stream of the last event
+  /// Streams that wait for others.
+  std::vector<std::pair<void *, void *>> waits;
   bool reuses_functions = false;   ///< a function of a new module has the handle of an old one's
   int num_functions = 0;           ///< that were asked for
   int num_graphs = 0, num_executables = 0;  ///< that are there

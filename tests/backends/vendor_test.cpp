@@ -204,6 +204,30 @@ TEST_P(VendorTest, SaysWhatIsWrongWithAText) {
   }
 }
 
+/// Where a driver's library is installed, if only to link with, it has all that is asked of it.
+class DriverLibrary : public testing::TestWithParam<const gpu::Vendor *> {};
+
+TEST_P(DriverLibrary, HasAllThatIsCalled) {
+  const gpu::Vendor &vendor = *GetParam();
+  std::vector<const char *> files(vendor.driver_files.begin(), vendor.driver_files.end());
+  if (&vendor == &cuda::vendor) {
+    files.push_back("/usr/local/cuda/lib64/stubs/libcuda.so");
+    files.push_back("/usr/local/cuda/lib/stubs/libcuda.so");
+  }
+  std::optional<gpu::VendorLibrary> library;
+  try {
+    library.emplace(files);
+  } catch (const gpu::DeviceError &error) {
+    GTEST_SKIP() << vendor.name << "'s driver: " << error.what();
+  }
+  EXPECT_NO_THROW(library->calls<gpu::DriverCalls>(vendor.driver_names));
+  if (vendor.graph_names.empty()) return;
+  EXPECT_NO_THROW(library->calls<gpu::GraphCalls>(vendor.graph_names));
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, DriverLibrary, testing::Values(&cuda::vendor, &hip::vendor),
+                         [](const auto &info) { return std::string(info.param->name); });
+
 TEST(DeviceOptions, AreRead) {
   const gpu::Options usual = gpu::parse_options(""), both = gpu::parse_options("device_id=1,threads=128");
   EXPECT_EQ(usual.device_id, gpu::current_device);

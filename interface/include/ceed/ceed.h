@@ -124,9 +124,9 @@ CEED_EXTERN int CeedRegistryGetList(size_t *n, char ***const resources, CeedInt 
 /// uses them.
 /// Error CEED_ERROR_MAJOR: no backend fits; the message lists those there are.
 CEED_EXTERN int CeedInit(const char *resource, Ceed *ceed);
-/// Stream `handle` (CUstream, hipStream_t) on which a device backend works from now on. What was given to the one before
-/// is waited for: the caller keeps a stream alive until another one has been set, or the Ceed is destroyed. Error
-/// CEED_ERROR_UNSUPPORTED: backends that work on the host take none.
+/// Stream `handle` (CUstream, hipStream_t) on which a device backend works from now on, after what was given to the one
+/// before, for which this call does not wait. The caller keeps a stream alive until another one has been set, or the
+/// Ceed is destroyed. Error CEED_ERROR_UNSUPPORTED: backends that work on the host take none.
 CEED_EXTERN int CeedSetStream(Ceed ceed, void *handle);
 /// Makes *ceed_copy another reference; what it held is dropped, so it is a live handle or NULL.
 CEED_EXTERN int CeedReferenceCopy(Ceed ceed, Ceed *ceed_copy);
