@@ -4,6 +4,22 @@
 
 namespace hg {
 
+namespace {
+
+CeedMemType ceed_type_of(PetscMemType type) {
+  return PetscMemTypeDevice(type) ? CEED_MEM_DEVICE : CEED_MEM_HOST;
+}
+
+}  // namespace
+
+CeedMemType memory_of(Vec vec) {
+  PetscScalar *array = nullptr;
+  PetscMemType type;
+  petsc_check(VecGetArrayWriteAndMemType(vec, &array, &type));
+  petsc_check(VecRestoreArrayWriteAndMemType(vec, &array));
+  return ceed_type_of(type);
+}
+
 Lend::Lend(Vec from, CeedVector to, Access access) : vec_(from), ceed_vec_(to), access_(access) {
   PetscScalar *array = nullptr;
   switch (access) {
@@ -20,7 +36,7 @@ Lend::Lend(Vec from, CeedVector to, Access access) : vec_(from), ceed_vec_(to), 
       petsc_check(VecGetArrayAndMemType(from, &array, &petsc_type_));
       break;
   }
-  ceed_type_ = PetscMemTypeDevice(petsc_type_) ? CEED_MEM_DEVICE : CEED_MEM_HOST;
+  ceed_type_ = ceed_type_of(petsc_type_);
   ceed_check(CeedVectorSetArray(to, ceed_type_, CEED_USE_POINTER, array));
 }
 

@@ -9,6 +9,9 @@ namespace hg {
 
 enum class Access { read, write, read_write };
 
+/// Where PETSc has the values of vectors like this one. What they are may be lost.
+CeedMemType memory_of(Vec vec);
+
 /// For its lifetime, `to` uses the array of `from` (host or device memory, wherever PETSc has it).
 /// Both must have the same length; `from` must not be touched meanwhile. Access::write leaves old values undefined.
 class Lend {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include "options/error.hpp"
 #include "options/options.hpp"
@@ -17,7 +18,26 @@ void default_option(const char *name, const char *value) {
   if (!set) petsc_check(PetscOptionsSetValue(nullptr, name, value));
 }
 
-DmHandle read_dm(MPI_Comm comm) {
+/// Vectors and matrices are where the backend works, if this PETSc has them there: -dm_vec_type and -dm_mat_type choose
+/// others.
+void choose_memory(DM dm, Ceed ceed) {
+  const char *resource;
+  ceed_check(CeedGetResource(ceed, &resource));
+  const auto set = [&](const char *backends, VecType vec, MatType mat) {
+    if (!std::string_view(resource).starts_with(backends)) return;
+    petsc_check(DMSetVecType(dm, vec));
+    petsc_check(DMSetMatType(dm, mat));
+  };
+#ifdef PETSC_HAVE_CUDA
+  set("/gpu/cuda/", VECCUDA, MATAIJCUSPARSE);
+#endif
+#if defined(PETSC_HAVE_HIP) && PETSC_VERSION_GE(3, 19, 0)
+  set("/gpu/hip/", VECHIP, MATAIJHIPSPARSE);
+#endif
+  (void)set;  // in a PETSc without devices
+}
+
+DmHandle read_dm(MPI_Comm comm, Ceed ceed) {
   OptionGroup group(comm, "", "Mesh");
   const std::string file = group.string("dm_plex_filename", "Gmsh file of hexahedra; without it the mesh is a box", "");
   // PETSc reads the options of the box; these calls explain them.
@@ -35,6 +55,7 @@ DmHandle read_dm(MPI_Comm comm) {
   DmHandle dm;
   petsc_check(DMCreate(comm, dm.put()));
   petsc_check(DMSetType(dm, DMPLEX));
+  choose_memory(dm, ceed);
   petsc_check(DMPlexDistributeSetDefault(dm, PETSC_FALSE));  // distribute_mesh does it, and keeps the cells' numbers
   try {
     petsc_check(DMSetFromOptions(dm));
@@ -50,7 +71,7 @@ DmHandle read_dm(MPI_Comm comm) {
 Mesh::Mesh(MPI_Comm comm_in, Ceed ceed_in, const MeshOptions &options)
     : comm(comm_in), ceed(ceed_in), order(options.order) {
   if (order < 1 || order > 8) fail("order of the displacement: %" PetscInt_FMT ", expected 1 to 8", order);
-  base_ = read_dm(comm);
+  base_ = read_dm(comm, ceed);
   cell_ids = distribute_mesh(base_, options.cell_weight);
   petsc_check(DMViewFromOptions(base_, nullptr, "-dm_view"));
   read_topology();

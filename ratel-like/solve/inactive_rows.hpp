@@ -15,8 +15,9 @@ namespace hg {
 class InactiveRows {
  public:
   /// `rows` are counted from this rank's first one; `like` is a vector of the layout. Collective.
-  void set(std::vector<PetscInt> rows, Vec like);
-  const std::vector<PetscInt> &rows() const { return rows_; }
+  void set(const std::vector<PetscInt> &rows, Vec like);
+  /// 1 in each of them, 0 elsewhere; NULL: there are none on any rank.
+  Vec indicator() const { return has_any_ ? inactive_.get() : nullptr; }
 
   /// to[row] = from[row] for each of them; the other entries stay as they are, these must be finite. Collective.
   void copy(Vec from, Vec to) const;
@@ -24,7 +25,6 @@ class InactiveRows {
   void set_to_one(Vec to) const;
 
  private:
-  std::vector<PetscInt> rows_;
   bool has_any_ = false;                ///< on some rank
   VecHandle inactive_, active_, work_;  ///< 1 there and 0 elsewhere, and the other way round
 };

@@ -58,7 +58,9 @@ JacobianMat::JacobianMat(const Mesh &mesh, Type type) : mesh_(mesh), type_(type)
   } else {
     petsc_check(MatCreate(mesh.comm, mat_.put()));
     petsc_check(MatSetSizes(mat_, num_rows_, num_rows_, PETSC_DETERMINE, PETSC_DETERMINE));
-    petsc_check(MatSetType(mat_, MATAIJ));
+    MatType mat_type;
+    petsc_check(DMGetMatType(mesh.dm, &mat_type));
+    petsc_check(MatSetType(mat_, mat_type));
     petsc_check(MatSetOption(mat_, MAT_SYMMETRIC, PETSC_TRUE));
   }
 
@@ -94,6 +96,8 @@ void JacobianMat::pattern() {
   rows_.assign(rows, rows + count);
   columns_.assign(columns, columns + count);
   ceed_check(CeedVectorCreate(mesh_.ceed, count + num_rows_, entries_.put()));
+  ceed_check(CeedVectorCreate(mesh_.ceed, num_rows_, diagonal_entries_.put()));
+  ceed_check(CeedVectorCreate(mesh_.ceed, num_rows_, indicator_.put()));
 
   // Every row has its diagonal, also where no cell contributes, so that the pattern outlives a change of inactive rows.
   std::vector<PetscInt> i(count + num_rows_), j(i.size());
@@ -105,6 +109,16 @@ void JacobianMat::pattern() {
   petsc_check(MatSetPreallocationCOO(mat_, static_cast<PetscCount>(i.size()), i.data(), j.data()));
 }
 
+CeedMemType JacobianMat::memory_of_values() const {
+  // Only a matrix that works where vectors are takes entries from there.
+  VecType of_mat, of_mesh;
+  PetscBool is_same;
+  petsc_check(MatGetVecType(mat_, &of_mat));
+  petsc_check(DMGetVecType(mesh_.dm, &of_mesh));
+  petsc_check(PetscStrcmp(of_mat, of_mesh, &is_same));
+  return is_same ? memory_of(local_out_) : CEED_MEM_HOST;
+}
+
 void JacobianMat::update(double damping) {
   shift_ = 0;
   if (type_ == Type::aij) {
@@ -112,10 +126,18 @@ void JacobianMat::update(double damping) {
       const OperatorScope scope(OperatorWork::matrix);
       ceed_check(CeedOperatorLinearAssemble(op_, entries_));
     }
+    const CeedMemType memory = memory_of_values();
+    CeedScalar *values, *diagonal;
+    ceed_check(CeedVectorGetArray(entries_, memory, &values));
     // What comes after the elements' entries is 0, but for the diagonal of rows that are inactive.
-    CeedScalar *values;
-    ceed_check(CeedVectorGetArray(entries_, CEED_MEM_HOST, &values));
-    for (PetscInt row : inactive_->rows()) values[rows_.size() + row] = 1.;
+    if (inactive_->indicator() != nullptr) {
+      ceed_check(CeedVectorSetArray(diagonal_entries_, memory, CEED_USE_POINTER, values + rows_.size()));
+      {
+        Lend indicator(inactive_->indicator(), indicator_, Access::read);
+        ceed_check(CeedVectorCopy(indicator_, diagonal_entries_));
+      }
+      ceed_check(CeedVectorTakeArray(diagonal_entries_, memory, &diagonal));
+    }
     petsc_check(MatSetValuesCOO(mat_, values, INSERT_VALUES));
     ceed_check(CeedVectorRestoreArray(entries_, &values));
   }

@@ -14,7 +14,8 @@
 namespace hg {
 
 /// -mat_type shell (default): product and diagonal of the operator, nothing is stored.
-/// -mat_type aij: assembled, for direct solvers and algebraic multigrid.
+/// -mat_type aij: assembled, for direct solvers and algebraic multigrid; on a device where the mesh's DM has matrices
+/// and vectors there.
 /// Rows and columns are the entries of a global vector of mesh.dm, so constrained entries are not in it. Inactive rows,
 /// that no point supports, are rows of the identity.
 class JacobianMat {
@@ -45,6 +46,8 @@ class JacobianMat {
 
  private:
   void pattern();
+  /// Where PETSc takes entries of an assembled matrix from.
+  CeedMemType memory_of_values() const;
 
   const Mesh &mesh_;
   Type type_;
@@ -55,7 +58,9 @@ class JacobianMat {
   const InactiveRows *inactive_ = nullptr;
   std::vector<PetscInt> global_index_;
   VecHandle local_in_, local_out_;
-  CeedVectorHandle ceed_in_, ceed_out_, entries_;
+  CeedVectorHandle ceed_in_, ceed_out_;
+  /// Entries of the elements, then those of the diagonal, which inactive rows have.
+  CeedVectorHandle entries_, diagonal_entries_, indicator_;
   std::vector<CeedInt> rows_, columns_;  ///< of the pattern in force, to know when it changes
 };
 

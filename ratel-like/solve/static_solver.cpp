@@ -111,7 +111,7 @@ void StaticSolver::operators_changed(const std::vector<char> &active_cells) {
     const PetscInt row = jacobian_->global_index()[i];
     if (row >= first && row < end && active[i / 3] == 0) inactive.push_back(row - first);
   }
-  inactive_.set(std::move(inactive), residual_);
+  inactive_.set(inactive, residual_);
   jacobian_->set_operator(operators_.jacobian(), inactive_);
 }
 

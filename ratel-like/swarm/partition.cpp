@@ -187,6 +187,14 @@ std::vector<PetscInt> distribute_mesh(DmHandle &dm, const CellWeightFn &weight) 
   petsc_check(DMPlexDistribute(dm, 0, migration.put(), distributed.put()));
   if (!distributed) fail("the mesh could not be distributed over %d ranks", size);
 
+  // PETSc forgets -dm_vec_type and -dm_mat_type here.
+  VecType vec_type;
+  MatType mat_type;
+  petsc_check(DMGetVecType(dm, &vec_type));
+  petsc_check(DMGetMatType(dm, &mat_type));
+  petsc_check(DMSetVecType(distributed, vec_type));
+  petsc_check(DMSetMatType(distributed, mat_type));
+
   // Cell numbers travel with the cells. Only cells carry one; other mesh points carry what nobody reads.
   PetscInt old_end, new_start, new_end, new_chart;
   petsc_check(DMPlexGetChart(dm, nullptr, &old_end));

@@ -6,6 +6,10 @@
 #include <gtest/gtest.h>
 #include <petscdm.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "solver_fixture.hpp"
 
 namespace {
@@ -74,6 +78,9 @@ namespace {
 
 class DeviceVectors : public testing::TestWithParam<const char *> {
  protected:
+  explicit DeviceVectors(const char *mat_type = "shell")
+      : options{{"-bc_clamp", "1"}, {"-mat_type", mat_type}}, problem{"elasticity-linear", "2,2,2",   2, nullptr,
+                                                                      PETSC_COMM_WORLD,    GetParam()} {}
   void SetUp() override {
     are_on_device = true;
     problem.solver->set_time(1);
@@ -106,8 +113,8 @@ class DeviceVectors : public testing::TestWithParam<const char *> {
     EXPECT_EQ(transfers(), 0) << "the library has copied";
   }
 
-  ScopedOptions options{{"-bc_clamp", "1"}, {"-mat_type", "shell"}};
-  Problem problem{"elasticity-linear", "2,2,2", 2, nullptr, PETSC_COMM_WORLD, GetParam()};
+  ScopedOptions options;
+  Problem problem;
   VecHandle f;
   CeedTransfers before{};
 };
@@ -131,6 +138,51 @@ TEST_P(DeviceVectors, StayThereInDiagonals) {
   }
 }
 
+class DeviceMatrices : public DeviceVectors {
+ protected:
+  DeviceMatrices() : DeviceVectors("aij") {}
+  /// What is on the diagonal, with vectors on the host.
+  std::vector<double> diagonal_on_host() {
+    are_on_device = false;
+    VecHandle d;
+    petsc_check(MatCreateVecs(problem.solver->matrix().mat(), nullptr, d.put()));
+    petsc_check(MatGetDiagonal(problem.solver->matrix().mat(), d));
+    const PetscScalar *array = nullptr;
+    PetscInt size = 0;
+    petsc_check(VecGetLocalSize(d, &size));
+    petsc_check(VecGetArrayRead(d, &array));
+    std::vector<double> values(array, array + size);
+    petsc_check(VecRestoreArrayRead(d, &array));
+    return values;
+  }
+};
+
+/// Entries are assembled there, and PETSc gets them from there, the ones of rows without material among them.
+TEST_P(DeviceMatrices, GetTheirEntriesThere) {
+  problem.solver->matrix().update();
+  start_counting();
+  for (int i = 0; i < 2; i++) problem.solver->matrix().update();
+  if (std::string(GetParam()).ends_with("ref")) {
+    EXPECT_GT(transfers(), 0) << "in stages the host assembles";
+  } else {
+    expect_no_copies();
+  }
+  const std::vector<double> on_device = diagonal_on_host();
+  problem.solver->matrix().update();
+  const std::vector<double> on_host = diagonal_on_host();
+  problem.solver->operators_changed(std::vector<char>(problem.mesh->num_cells, 1));
+  problem.solver->matrix().update();
+  const std::vector<double> of_cells = diagonal_on_host();
+  int num_ones = 0;
+  for (std::size_t i = 0; i < on_host.size(); i++) {
+    EXPECT_NEAR(on_device[i], on_host[i], 1e-13) << i;
+    const double added = on_device[i] - of_cells[i];
+    EXPECT_NEAR(added, added > 0.5 ? 1 : 0, 1e-13) << i;
+    if (added > 0.5) num_ones++;
+  }
+  EXPECT_EQ(num_ones, 75);  // the unclamped nodes of the cells without material, but for those that others share
+}
+
 /// The checks see a copy where there is one.
 TEST_P(DeviceVectors, AreSeenToBeCopied) {
   const PetscScalar *array = nullptr;
@@ -149,6 +201,8 @@ TEST_P(DeviceVectors, AreSeenToBeCopied) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, DeviceVectors, testing::Values("/gpu/emu/ref", "/gpu/emu/gen"),
+                         [](const auto &info) { return std::string(info.param).substr(9); });
+INSTANTIATE_TEST_SUITE_P(Backends, DeviceMatrices, testing::Values("/gpu/emu/ref", "/gpu/emu/gen"),
                          [](const auto &info) { return std::string(info.param).substr(9); });
 
 }  // namespace

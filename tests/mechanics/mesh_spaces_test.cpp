@@ -231,6 +231,20 @@ TEST(Mesh, VolumesAddUp) {
   EXPECT_NEAR(sum_over_ranks(volume(*rotated)), 1, 1e-12);
 }
 
+TEST(Mesh, VectorsAndMatricesAreOfTheTypesThatOptionsName) {
+  CeedHandle ceed = make_ceed();
+  const ScopedOptions types{{"-dm_vec_type", "mpi"}, {"-dm_mat_type", "baij"}};
+  const auto mesh = box_mesh(ceed, "2,2,2", {});
+  VecType vec_type;
+  MatType mat_type;
+  for (DM dm : {mesh->dm.get(), mesh->space(1, 1).dm.get()}) {
+    petsc_check(DMGetVecType(dm, &vec_type));
+    EXPECT_STREQ(vec_type, "mpi");
+  }
+  petsc_check(DMGetMatType(mesh->dm, &mat_type));
+  EXPECT_STREQ(mat_type, "baij");
+}
+
 TEST(Mesh, FacesAndNeighboursFollowTheTensorFrame) {
   CeedHandle ceed = make_ceed();
   auto mesh = gmsh_mesh(ceed, write_rotated_gmsh(test_file("spaces_rotated"), 3), {});
