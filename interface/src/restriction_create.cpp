@@ -169,23 +169,33 @@ CeedInt check_points(CeedElemRestriction_private &r, CeedInt num_points, const C
       },
       where);
   const CeedSize num_places = r.l_size / r.num_comp;
+  const CeedInt *numbers = offsets + first;
+  // One pass without branches: numbers that are in range, and rise, as they do once points were sorted by elements.
+  CeedInt least = num_entries > 0 ? numbers[0] : 0, most = num_entries > 0 ? numbers[0] : -1, num_falls = 0;
+  for (CeedInt i = 1; i < num_entries; i++) {
+    least = std::min(least, numbers[i]);
+    most = std::max(most, numbers[i]);
+    num_falls += numbers[i] <= numbers[i - 1];
+  }
+  hg::require(
+      least >= 0 && most < num_places, CEED_ERROR_DIMENSION,
+      [&] {
+        const auto is_wrong = [&](CeedInt number) { return number < 0 || number >= num_places; };
+        const auto i = static_cast<CeedInt>(std::find_if(numbers, numbers + num_entries, is_wrong) - offsets);
+        const auto e = static_cast<CeedInt>(std::upper_bound(offsets, offsets + num_elem + 1, i) - offsets) - 1;
+        return hg::text("CeedElemRestriction at points: point %" CeedInt_FMT " of element %" CeedInt_FMT
+                        " has the number %" CeedInt_FMT
+                        "; expected one in [0, %td), as the L-vector has %td entries of %" CeedInt_FMT " components",
+                        i - offsets[e], e, offsets[i], num_places, r.l_size, r.num_comp);
+      },
+      where);
+  // Each place once?
   r.is_copy = num_entries * static_cast<CeedSize>(r.num_comp) == r.l_size;
-  std::vector<bool> is_listed(r.is_copy ? static_cast<std::size_t>(num_places) : 0);
-  for (CeedInt e = 0; e < num_elem; e++) {
-    for (CeedInt i = offsets[e]; i < offsets[e + 1]; i++) {
-      hg::require(
-          offsets[i] >= 0 && offsets[i] < num_places, CEED_ERROR_DIMENSION,
-          [&] {
-            return hg::text("CeedElemRestriction at points: point %" CeedInt_FMT " of element %" CeedInt_FMT
-                            " has the number %" CeedInt_FMT
-                            "; expected one in [0, %td), as the L-vector has %td entries of %" CeedInt_FMT
-                            " components",
-                            i - offsets[e], e, offsets[i], num_places, r.l_size, r.num_comp);
-          },
-          where);
-      if (!r.is_copy) continue;
-      r.is_copy = !is_listed[offsets[i]];
-      is_listed[offsets[i]] = true;
+  if (r.is_copy && num_falls > 0) {
+    std::vector<bool> is_listed(static_cast<std::size_t>(num_places));
+    for (CeedInt i = 0; r.is_copy && i < num_entries; i++) {
+      r.is_copy = !is_listed[numbers[i]];
+      is_listed[numbers[i]] = true;
     }
   }
   return num_entries;
