@@ -257,37 +257,40 @@ class CellPrinter {
     line("const CeedInt *const starts = job.facts.points.offsets;");
     line("const CeedSize point = starts[0] + index();");
     line("if (point >= starts[job.facts.num_elem]) return;");
+    line("const CeedInt number = starts[point];");
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
       if (!assembly_.is_read(field)) continue;
       line("CeedScalar in{}[{}];", i, field.size);
-      line("{}", stored_input(i, "point", fmt::format("in{}", i)));
+      line("{}", stored_input(i, "number", fmt::format("in{}", i)));
     }
     if (assembly_.applies()) {
       for (const std::string &text : output_lines(program_)) line("{}", text);
     }
-    for (const std::string &text : at_point("point")) line("{}", text);
+    for (const std::string &text : at_point("number", "point")) line("{}", text);
   }
   /// An input that is stored, or a weight.
-  std::string stored_input(CeedInt i, const std::string &point, const std::string &to) const {
+  std::string stored_input(CeedInt i, const std::string &number, const std::string &to) const {
     const CeedProgramField &field = program_.inputs[i];
     if (field.eval_mode == CEED_EVAL_WEIGHT) return to + "[0] = 1;";
-    return fmt::format("read_point<{}>(job.sources[{}], {}, {});", field.size, field.side, point, to);
+    return fmt::format("read_point<{}>(job.sources[{}], {}, {});", field.size, field.side, number, to);
   }
+  /// Whether points' places in their list are wanted, beside their numbers.
+  bool writes_columns() const { return !assembly_.applies() && !assembly_.contracts(); }
   /// What is done at a point with in0, in1, ..., and out0, out1, ...
-  std::vector<std::string> at_point(const std::string &point) const {
+  std::vector<std::string> at_point(const std::string &number, const std::string &point) const {
     if (!assembly_.applies()) {
       return assembly_.column_lines(
-          assembly_.contracts()
-              ? fmt::format("{}{{shared + columns}}.write_column(thread(), i, column);", assembly_.matrices_type())
-              : fmt::format("write_column<{}, {}>(column, job.facts.entries, {} - job.facts.points.offsets[0], i);",
-                            program_.num_active_in, program_.num_active_out, point));
+          writes_columns()
+              ? fmt::format("write_column<{}, {}>(column, job.facts.entries, {} - job.facts.points.offsets[0], i);",
+                            program_.num_active_in, program_.num_active_out, point)
+              : fmt::format("{}{{shared + columns}}.write_column(thread(), i, column);", assembly_.matrices_type()));
     }
     std::vector<std::string> lines = call_lines(program_);
     for (CeedInt o = 0; o < program_.num_outputs; o++) {
       const CeedProgramField &field = program_.outputs[o];
       if (is_evaluated(field)) continue;
-      lines.push_back(fmt::format("write_point<{}>(job.sinks[{}], {}, out{});", field.size, field.side, point, o));
+      lines.push_back(fmt::format("write_point<{}>(job.sinks[{}], {}, out{});", field.size, field.side, number, o));
     }
     return lines;
   }
@@ -320,7 +323,7 @@ class CellPrinter {
   }
   /// What is read from memory comes first, for all points of a thread.
   void read_points() {
-    line("  CeedInt points[slots];");
+    line("  CeedInt numbers[slots]{};", writes_columns() ? ", points[slots]" : "");
     line("  CeedScalar x[slots][{}];", dim_);
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       if (assembly_.is_read(program_.inputs[i]) && is_first(i)) {
@@ -328,10 +331,11 @@ class CellPrinter {
       }
     }
     line("  HG_UNROLL for (int s = 0; s < slots; s++) {{");
-    line("    points[s] = at.point(step, s);");
-    line("    read_coordinates<{}>(job.facts.points, at, points[s], x[s]);", dim_);
+    if (writes_columns()) line("    points[s] = at.point(step, s);");
+    line("    numbers[s] = number_of(job.facts, at.point(step, s));");
+    line("    read_coordinates<{}>(job.facts.points, numbers[s], x[s]);", dim_);
     if (!reads_late()) {
-      line("    if (!at.has(points[s])) continue;");
+      line("    if (!at.has(numbers[s])) continue;");
       read_stored();
     }
     line("  }}");
@@ -340,10 +344,11 @@ class CellPrinter {
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       const CeedProgramField &field = program_.inputs[i];
       if (!assembly_.is_read(field) || is_evaluated(field)) continue;
-      line("    {}", stored_input(i, "points[s]", fmt::format("ins{}[s]", i)));
+      line("    {}", stored_input(i, "numbers[s]", fmt::format("ins{}[s]", i)));
     }
   }
-  /// Whether what is stored is read when it is wanted: where registers are short in any case.
+  /// Whether what is stored is read when it is wanted, the points' numbers once more: where registers are short in any
+  /// case.
   bool reads_late() const {
     constexpr int many_registers = 168;
     return assembly_.applies() && wanted_registers() > many_registers;
@@ -358,7 +363,7 @@ class CellPrinter {
     for (const Evaluation &e : evaluations_) {
       const Space &s = spaces_[e.space];
       const auto array = [](int i) { return i < 0 ? std::string("nullptr") : fmt::format("ins{}", i); };
-      line("  if (at.has(points[0])) evaluate_points<{}, {}, {}, {}, {}>(at{}, nodes{}, {}, {});", dim_, s.P,
+      line("  if (at.has(numbers[0])) evaluate_points<{}, {}, {}, {}, {}>(at{}, nodes{}, {}, {});", dim_, s.P,
            s.num_comp, e.interp >= 0, e.derivative >= 0, s.functions, e.side, array(e.interp), array(e.derivative));
     }
     for (CeedInt o = 0; assembly_.applies() && o < program_.num_outputs; o++) {
@@ -370,7 +375,8 @@ class CellPrinter {
       if (is_evaluated(program_.outputs[o]))
         line("    HG_UNROLL for (int i = 0; i < {}; i++) outs{}[s][i] = 0;", size, o);
     }
-    line("    if (!at.has(points[s])) continue;");
+    if (reads_late()) line("    numbers[s] = number_of(job.facts, at.point(step, s));");
+    line("    if (!at.has(numbers[s])) continue;");
     if (reads_late()) read_stored();
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       if (assembly_.is_read(program_.inputs[i])) line("    CeedScalar *const in{} = ins{}[s];", i, first_of(i));
@@ -378,7 +384,7 @@ class CellPrinter {
     for (CeedInt o = 0; assembly_.applies() && o < program_.num_outputs; o++) {
       line("    CeedScalar *const out{} = outs{}[s];", o, o);
     }
-    for (const std::string &text : at_point("points[s]")) line("    {}", text);
+    for (const std::string &text : at_point("numbers[s]", "points[s]")) line("    {}", text);
     line("  }}");
   }
   /// Each cell of the block has a warp.

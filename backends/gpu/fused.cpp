@@ -13,11 +13,16 @@ using host::chk;
 
 namespace {
 
+/// Whether an L-vector is reached by a list of nodes of its own. At points all have one list, that of the coordinates.
+bool has_list(const CeedElementMap &map) {
+  return map.offsets != nullptr && map.type != CEED_RESTRICTION_POINTS;
+}
+
 Side side_of(CeedElemRestriction rstr, const CeedScalar *values) {
   const CeedElementMap &map = map_of(rstr);
   const bool is_strided = map.offsets == nullptr;
   return {.values = const_cast<CeedScalar *>(values),  // sinks are written
-          .offsets = is_strided ? nullptr : offsets_of(rstr),
+          .offsets = has_list(map) ? offsets_of(rstr) : nullptr,
           .node_stride = is_strided ? map.strides[0] : 0,
           .comp_stride = is_strided ? map.strides[1] : map.comp_stride,
           .elem_stride = is_strided ? map.strides[2] : 0};
@@ -152,11 +157,11 @@ void FusedOperator::prepare(const CeedProgram &program) {
 void FusedOperator::list_nodes(const CeedProgram &program) {
   if (program.at_points && program.points_epoch != points_epoch_) list_cells(program);
   const auto list = [](CeedElemRestriction rstr) {
-    if (map_of(rstr).offsets != nullptr) offsets_of(rstr);
+    if (has_list(map_of(rstr))) offsets_of(rstr);
   };
   for (CeedInt s = 0; s < program.num_sources; s++) list(program.sources[s].rstr);
   for (CeedInt t = 0; t < program.num_sinks; t++) list(program.sinks[t].rstr);
-  if (program.at_points) list(program.points_rstr);
+  if (program.at_points) offsets_of(program.points_rstr);
 }
 
 Call FusedOperator::call_of(const CeedProgram &program, CeedVector in, CeedVector out, CeedApplyMode mode) {
@@ -214,6 +219,7 @@ Call FusedOperator::call_of(const CeedProgram &program, const host::ProgramArray
                       .entries = entries};
   if (program.at_points) {
     facts.points = side_of(program.points_rstr, arrays.points());
+    facts.points.offsets = offsets_of(program.points_rstr);
     facts.cells = cells_.as<CeedInt>();
     facts.num_cells = num_cells_;
   }

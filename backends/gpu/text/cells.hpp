@@ -169,15 +169,20 @@ HG_DEVICE void evaluate_points(const Functions<dim, P> *at, SharedArray nodes, C
   }
 }
 
+/// The number of a point, its place in all L-vectors; -1 where there is none.
+HG_DEVICE CeedInt number_of(const OperatorFacts &facts, CeedInt point) {
+  return CellLanes::has(point) ? facts.points.offsets[point] : -1;
+}
+
 /// What is stored at points, component fastest.
 template <int num_comp>
-HG_DEVICE void read_point(const Side &side, CeedSize point, CeedScalar *values) {
-  const CeedScalar *from = side.values + static_cast<CeedSize>(side.offsets[point]) * num_comp;
+HG_DEVICE void read_point(const Side &side, CeedInt number, CeedScalar *values) {
+  const CeedScalar *from = side.values + static_cast<CeedSize>(number) * num_comp;
   HG_UNROLL for (int c = 0; c < num_comp; c++) values[c] = from[c];
 }
 template <int num_comp>
-HG_DEVICE void write_point(const Side &side, CeedSize point, const CeedScalar *values) {
-  CeedScalar *to = side.values + static_cast<CeedSize>(side.offsets[point]) * num_comp;
+HG_DEVICE void write_point(const Side &side, CeedInt number, const CeedScalar *values) {
+  CeedScalar *to = side.values + static_cast<CeedSize>(number) * num_comp;
   HG_UNROLL for (int c = 0; c < num_comp; c++) {
     if (side.access == Side::set) {
       to[c] = values[c];
@@ -191,9 +196,9 @@ HG_DEVICE void write_point(const Side &side, CeedSize point, const CeedScalar *v
 
 /// A thread's point; anywhere where it has none.
 template <int dim>
-HG_DEVICE void read_coordinates(const Side &side, const CellLanes &at, CeedInt point, CeedScalar *x) {
+HG_DEVICE void read_coordinates(const Side &side, CeedInt number, CeedScalar *x) {
   HG_UNROLL for (int d = 0; d < dim; d++) x[d] = 0;
-  if (at.has(point)) read_point<dim>(side, point, x);
+  if (CellLanes::has(number)) read_point<dim>(side, number, x);
 }
 
 /// A lane's share of N numbers, of which each lane of a group has a part to be summed: halves are exchanged, then

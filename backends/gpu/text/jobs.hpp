@@ -80,8 +80,8 @@ struct QFunctionJob {
   int *failed;  ///< what the function returned, where that was not 0; NULL: it returns nothing else
 };
 
-/// An L-vector and the way to it: offsets of nodes, as restrictions have them (at points the ids of points, with the
-/// starts of the elements before them), or else strides.
+/// An L-vector and the way to it: offsets of nodes, as restrictions have them, or else strides. At points the numbers
+/// of points, with the starts of the elements before them: those of the coordinates, for all that is stored at points.
 struct Side {
   enum Access : CeedSize {
     add_shared,  ///< other threads may add to the same entries
