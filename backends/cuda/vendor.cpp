@@ -62,12 +62,13 @@ int open(const gpu::VendorLibrary &driver, int device, void **context) {
 }
 
 int make_current(const gpu::VendorLibrary &driver, void *context) {
-  return reinterpret_cast<int (*)(void *)>(driver.symbol("cuCtxSetCurrent"))(context);
+  static const auto set = reinterpret_cast<int (*)(void *)>(driver.symbol("cuCtxSetCurrent"));  // it is in each call
+  return set(context);
 }
 
 int allow_shared(const gpu::VendorLibrary &driver, void *function, std::size_t bytes) {
   constexpr int max_dynamic_shared_size_bytes = 8;
-  const auto set = reinterpret_cast<int (*)(void *, int, int)>(driver.symbol("cuFuncSetAttribute"));
+  static const auto set = reinterpret_cast<int (*)(void *, int, int)>(driver.symbol("cuFuncSetAttribute"));
   return set(function, max_dynamic_shared_size_bytes, static_cast<int>(bytes));
 }
 
@@ -88,6 +89,7 @@ const gpu::Vendor vendor{
     .driver_names = driver_names,
     .compiler_names = compiler_names,
     .graph_names = graph_names,
+    .user_kernels = gpu::UserKernels::cuda,
     .attributes = {.max_threads = 1, .shared_per_block = 97, .warp_size = 10, .num_processors = 16},
     .error = error,
     .current = current,

@@ -213,6 +213,10 @@ std::vector<Number> Emulator::order_of(Number count) {
   return order;
 }
 
+void Emulator::launch_user(void *kernel, void *context, CeedInt Q, const gpu::UserFields &fields) {
+  if (Q > 0) reinterpret_cast<void (*)(void *, CeedInt, gpu::UserFields)>(kernel)(context, Q, fields);
+}
+
 std::unique_ptr<gpu::Calls> Emulator::make_calls() {
   struct InOrder : gpu::Calls {
     explicit InOrder(Emulator &device) : device(device) {}
@@ -224,8 +228,13 @@ std::unique_ptr<gpu::Calls> Emulator::make_calls() {
   return std::make_unique<InOrder>(*this);
 }
 
-void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void *job, std::size_t) {
+void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void *job, std::size_t job_bytes) {
   const auto &function = *static_cast<const Function *>(kernel.handle);
+  constexpr std::uint64_t most_blocks = std::numeric_limits<int>::max(), most_bytes = 4096;  // everywhere
+  if (launch.num_blocks < 1 || launch.num_blocks > most_blocks || job_bytes > most_bytes) {
+    throw DeviceError("'" + function.name + "' cannot be launched with " + std::to_string(launch.num_blocks) +
+                      " blocks and a job of " + std::to_string(job_bytes) + " bytes");
+  }
   if (launch.num_threads < 1 || launch.num_threads > properties_.max_threads ||
       launch.shared_bytes > properties_.shared_per_block) {
     throw DeviceError("'" + function.name + "' cannot be launched with " + std::to_string(launch.num_threads) +

@@ -34,6 +34,8 @@ class Emulator : public gpu::Driver {
   void set_stream(void *) override {}
   std::unique_ptr<gpu::Module> compile(const std::string &name, const std::string &text) override;
   void launch(gpu::Kernel kernel, const gpu::Launch &launch, const void *job, std::size_t job_bytes) override;
+  /// The kernel is a function of the host.
+  void launch_user(void *kernel, void *context, CeedInt Q, const gpu::UserFields &fields) override;
   std::unique_ptr<gpu::Calls> make_calls() override;
 
  private:

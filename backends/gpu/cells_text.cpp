@@ -40,7 +40,7 @@ class CellPrinter {
   }
 
   OperatorText print() {
-    if (text_.numbers.size() > most_numbers) return {};
+    if (!fits_a_job(program_, text_.numbers.size())) return {};
     if (evaluations_.empty() && integrations_.empty() && !assembly_.contracts()) {
       text_.num_threads = block_.num_threads;
       text_.num_elem = 0;
@@ -134,6 +134,9 @@ class CellPrinter {
     text_.shared_bytes = bytes(of_thread, lanes_);
     text_.num_elem = text_.num_threads / lanes_;
     text_.points_of_step = lanes_ * slots_;
+    text_.lanes = lanes_;
+    text_.slots = slots_;
+    text_.places_of_point = places_of_point(lanes_);
     constexpr int most_blocks = 32, most_threads = 2048;  // of a processor
     const int most = assembly_.applies() ? std::min(most_blocks, most_threads / text_.num_threads) : 1;
     while (text_.num_blocks < most && registers(text_.num_blocks + 1) >= wanted_registers()) text_.num_blocks++;
@@ -228,7 +231,14 @@ class CellPrinter {
         of_space = std::max(of_space, e.derivative >= 0 ? 2 : 1);
       }
     }
-    for (std::size_t f = 0; f < functions_.size(); f++) functions += kinds[f] * dim_ * functions_[f].P;
+    for (std::size_t f = 0; f < functions_.size(); f++) {
+      // Those of planes that are taken one by one are in memory; the compiler wants registers in their stead where
+      // there are no derivatives, or many nodes.
+      constexpr CeedInt most_planes_at_once = 3, many_planes = 8;
+      const CeedInt P = functions_[f].P;
+      const bool are_apart = dim_ == 3 && kinds[f] == 2 && P > most_planes_at_once && P < many_planes;
+      functions += kinds[f] * (are_apart ? dim_ - 1 : dim_) * P;
+    }
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
       if (program_.inputs[i].eval_mode == CEED_EVAL_NONE) stored += program_.inputs[i].size;
     }

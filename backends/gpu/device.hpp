@@ -109,6 +109,12 @@ class Device {
 
   static constexpr int usual_threads = 256;
   const Tuning &tuning() const { return tuning_; }
+  /// The layout that operators at points of one kind have had so far, by a hash of the kind; zeros where there was
+  /// none.
+  struct Layout {
+    int lanes = 0, slots = 0;
+  };
+  Layout &layout_of(std::size_t kind) { return layouts_[kind]; }
 
  private:
   Module &library();
@@ -117,6 +123,7 @@ class Device {
   std::recursive_mutex mutex_;
   std::shared_ptr<Driver> driver_;
   Tuning tuning_;
+  std::map<std::size_t, Layout> layouts_;
   std::unique_ptr<Module> library_;
   std::map<std::string, Kernel, std::less<>> kernels_;
 };

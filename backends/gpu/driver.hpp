@@ -20,6 +20,9 @@ struct DeviceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whose kernels of the user's a device takes; `any`: an emulator, whose kernels are functions of the host.
+enum class UserKernels { cuda, hip, any };
+
 struct Properties {
   std::string name;
   int number;                    ///< among the vendor's devices
@@ -27,6 +30,7 @@ struct Properties {
   int max_threads;               ///< of a block
   std::size_t shared_per_block;  ///< bytes
   int num_processors;
+  UserKernels user_kernels = UserKernels::any;
 };
 
 /// A function on the device; valid as long as its module.
@@ -58,6 +62,13 @@ struct Call {
   Kernel kernel;
   Launch launch;
   std::vector<std::byte> job;
+};
+
+/// The fields that a kernel of the user's is called with, as libCEED has them: value c of point i is entry c*Q + i.
+struct UserFields {
+  static constexpr CeedInt most = 16;  ///< inputs, and outputs
+  const CeedScalar *inputs[most] = {};
+  CeedScalar *outputs[most] = {};
 };
 
 /// Calls that do not depend on each other, and are made again and again, with kernels and jobs that seldom change.
@@ -109,6 +120,9 @@ class Driver {
   virtual std::unique_ptr<Module> compile(const std::string &name, const std::string &text) = 0;
   /// Calls a kernel with its one argument, a struct of text/jobs.hpp, which is copied.
   virtual void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) = 0;
+  /// Calls a kernel that the user has loaded (CUfunction, hipFunction_t): f(void *context, CeedInt Q, UserFields
+  /// fields), with at least Q threads, in blocks of 256.
+  virtual void launch_user(void *kernel, void *context, CeedInt Q, const UserFields &fields) = 0;
   void make(const Call &call) { launch(call.kernel, call.launch, call.job.data(), call.job.size()); }
   /// The driver is there as long as these are. Here: one after another.
   virtual std::unique_ptr<Calls> make_calls();

@@ -502,7 +502,7 @@ class ElementPrinter {
   /// Elements of a block: as many as fill its warps best.
   OperatorText finish() {
     const std::size_t size = phases_.place() * sizeof(CeedScalar);
-    if (size > block_.shared_bytes || text_.numbers.size() > most_numbers) return {};
+    if (size > block_.shared_bytes || !fits_a_job(program_, text_.numbers.size())) return {};
     double best = 0;
     for (CeedInt elems = 1; elems <= block_.num_threads; elems++) {
       const CeedInt lines = elems * lines_;

@@ -1,6 +1,8 @@
 #include "function_text.hpp"
 
 #include <cctype>
+#include <map>
+#include <set>
 #include <string_view>
 
 #include "../host/access.hpp"
@@ -14,28 +16,85 @@ using host::chk;
 
 namespace {
 
-/// A text without its comments.
-std::string without_comments(std::string_view text) {
+/// A text without its comments, what literals say, and ends of lines that are continued.
+std::string bare(std::string_view text) {
   std::string code;
   for (std::size_t i = 0; i < text.size(); i++) {
     const std::string_view two = text.substr(i, 2);
-    if (two != "//" && two != "/*") {
+    const auto skip_to = [&](std::string_view end, std::size_t from) {
+      const auto found = text.find(end, from);
+      i = found == std::string_view::npos ? text.size() : found + end.size() - 1;
+    };
+    if (two == "//") {
+      skip_to("\n", i + 2);
+      code += '\n';
+    } else if (two == "/*") {
+      skip_to("*/", i + 2);
+      code += ' ';
+    } else if (two == "\\\n") {
+      i++;
+    } else if (text[i] == '"' ||
+               (text[i] == '\'' && (i == 0 || std::isalnum(static_cast<unsigned char>(text[i - 1])) == 0))) {
+      const char quote = text[i];
+      for (i++; i < text.size() && text[i] != quote && text[i] != '\n'; i++) i += text[i] == '\\' ? 1 : 0;
+      code += "0";
+    } else {
       code += text[i];
-      continue;
     }
-    const auto end = text.find(two == "//" ? "\n" : "*/", i + 2);
-    if (end == std::string_view::npos) break;
-    i = two == "//" ? end - 1 : end + 1;
   }
   return code;
 }
 
+bool is_of_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// The words of a text that begin at `at` or later; empty at its end.
+std::string_view next_word(std::string_view text, std::size_t &at) {
+  while (at < text.size() && !is_of_word(text[at])) at++;
+  const std::size_t begin = at;
+  while (at < text.size() && is_of_word(text[at])) at++;
+  return text.substr(begin, at - begin);
+}
+
+bool has_word(std::string_view text, const std::set<std::string, std::less<>> &words) {
+  std::size_t at = 0;
+  for (auto word = next_word(text, at); !word.empty(); word = next_word(text, at)) {
+    if (words.contains(word)) return true;
+  }
+  return false;
+}
+
+/// The macros that return, by themselves or by others.
+std::set<std::string, std::less<>> returning_macros(std::string_view code) {
+  std::map<std::string, std::string, std::less<>> macros;  // all that a name stands for anywhere
+  for (auto line = code.find("#"); line != std::string_view::npos; line = code.find("#", line + 1)) {
+    std::size_t at = line;
+    if (next_word(code, at) != "define") continue;
+    const std::string name(next_word(code, at));
+    macros[name] += ' ' + std::string(code.substr(at, code.find('\n', at) - at));
+  }
+  std::set<std::string, std::less<>> returning{"return"};
+  for (std::size_t before = 0; before != returning.size();) {
+    before = returning.size();
+    for (const auto &[name, text] : macros) {
+      if (has_word(text, returning)) returning.insert(name);
+    }
+  }
+  returning.erase("return");
+  return returning;
+}
+
 /// Whether a QFunction returns other things than 0 and the name of success, by its text; so do those whose body is not
-/// found.
+/// found, and those that use a macro that returns.
 bool may_fail(const std::string &text, const std::string &function) {
-  const std::string code = without_comments(text);
-  const auto name = code.find("CEED_QFUNCTION(" + function + ")");
-  const auto begin = name == std::string::npos ? name : code.find('{', name);
+  const std::string code = bare(text);
+  const std::string head = "CEED_QFUNCTION(" + function + ")";
+  auto begin = std::string::npos;
+  for (auto name = code.find(head); name != std::string::npos; name = code.find(head, name + 1)) {
+    const auto next = code.find_first_of("{;", name);
+    if (next != std::string::npos && code[next] == '{') begin = next;  // not where it is only declared
+  }
   if (begin == std::string::npos) return true;
   auto end = begin;
   for (int depth = 0; end < code.size(); end++) {
@@ -43,6 +102,7 @@ bool may_fail(const std::string &text, const std::string &function) {
     if (depth == 0) break;
   }
   const std::string_view body = std::string_view(code).substr(begin, end - begin), word = "return";
+  if (has_word(body, returning_macros(code))) return true;
   for (auto at = body.find(word); at != std::string_view::npos; at = body.find(word, at + 1)) {
     std::string value(body.substr(at + word.size(), body.find(';', at) - at - word.size()));
     std::erase_if(value, [](unsigned char c) { return std::isspace(c) != 0; });
@@ -60,7 +120,7 @@ FunctionText::FunctionText(CeedQFunction qf) {
   CeedInt vector_length = 1;
   chk(CeedQFunctionGetVectorLength(qf, &vector_length));
   name = source.function;
-  may_fail = gpu::may_fail(function, source.function);
+  may_fail = gpu::may_fail(defines.begin + function, source.function);
   text = define("CEED_Q_VLA", std::to_string(vector_length)) + first_text() + defines.begin + function + defines.end +
          define("HG_QFUNCTION", "::" + source.function);
 }

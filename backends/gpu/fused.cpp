@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -103,6 +105,28 @@ bool meets_entries_twice(const CeedProgram &program) {
   return false;
 }
 
+/// The text of an operator at points, laid out as those of its kind that were made before, unless that leaves many more
+/// threads without a point than another layout would: so nothing is compiled when points move a little, and operators
+/// are made anew for them.
+OperatorText lasting_text(Device &device, Block block, const CeedProgram &program, const FunctionText &function,
+                          Purpose purpose) {
+  constexpr double many_more = 1.25;
+  OperatorText best = cells_text(block, program, function, purpose);
+  if (best.lanes == 0 || block.lanes != 0 || block.slots != 0) return best;
+  block.lanes = block.slots = 1;  // any layout: such a text says nothing of the points
+  const OperatorText kind = cells_text(block, program, function, purpose);
+  const auto one_thread = device.lock();
+  Device::Layout &layout = device.layout_of(std::hash<std::string>()(kind.text));
+  if (layout.lanes != 0 && (layout.lanes != best.lanes || layout.slots != best.slots)) {
+    block.lanes = layout.lanes;
+    block.slots = layout.slots;
+    OperatorText as_before = cells_text(block, program, function, purpose);
+    if (as_before.lanes != 0 && as_before.places_of_point <= many_more * best.places_of_point) return as_before;
+  }
+  layout = {.lanes = best.lanes, .slots = best.slots};
+  return best;
+}
+
 bool is_diagonal(Purpose purpose) {
   return purpose == Purpose::diagonal || purpose == Purpose::point_blocks;
 }
@@ -120,7 +144,7 @@ std::unique_ptr<FusedOperator> FusedOperator::make(Device &device, const CeedPro
                     .shared_bytes = properties.shared_per_block,
                     .lanes = tuning.lanes,
                     .slots = tuning.slots};
-  OperatorText text = program.at_points ? cells_text(block, program, function, purpose)
+  OperatorText text = program.at_points ? lasting_text(device, block, program, function, purpose)
                                         : elements_text(block, program, function, purpose);
   if (text.text.empty()) return nullptr;
   if (is_diagonal(purpose) && meets_entries_twice(program)) return nullptr;

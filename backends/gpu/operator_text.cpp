@@ -6,6 +6,7 @@
 
 #include "../host/access.hpp"
 #include "restriction.hpp"
+#include "text/jobs.hpp"
 #include "texts.hpp"
 
 namespace hg::gpu {
@@ -21,6 +22,14 @@ bool is_taken(const CeedProgram &program) {
   };
   return vector_length == 1 && std::all_of(program.sources, program.sources + program.num_sources, takes) &&
          std::all_of(program.sinks, program.sinks + program.num_sinks, takes);
+}
+
+bool fits_a_job(const CeedProgram &program, std::size_t num_numbers) {
+  constexpr std::size_t most = 4096;
+  const auto num_sides = static_cast<std::size_t>(std::max(program.num_sources, 1) + std::max(program.num_sinks, 1));
+  return sizeof(OperatorFacts) + num_sides * sizeof(Side) +
+             std::max<std::size_t>(num_numbers, 1) * sizeof(CeedScalar) <=
+         most;
 }
 
 bool is_alone(const CeedProgram &program, CeedInt sink) {

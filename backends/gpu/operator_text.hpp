@@ -18,6 +18,8 @@ struct OperatorText {
   std::vector<CeedScalar> tables;   ///< OperatorFacts::tables
   CeedInt num_elem = 1;             ///< elements of a block; at points 0: each thread takes a point of any cell
   CeedInt points_of_step = 1;       ///< at points: points of a cell that are taken at a time
+  int lanes = 0, slots = 0;         ///< at points, where cells are taken: Block's, as they were chosen
+  double places_of_point = 1;       ///< with these: how many threads there are for a point, counted over all steps
   int num_threads = 0;              ///< of a block
   int num_blocks = 1;               ///< that a processor is to hold
   std::size_t shared_bytes = 0;     ///< of a block
@@ -48,8 +50,8 @@ OperatorText cells_text(const Block &block, const CeedProgram &program, const Fu
 
 // What both have.
 
-/// Numbers that can be told with each call: jobs have at most 4 KB.
-constexpr std::size_t most_numbers = 360;
+/// Whether so many numbers can be told with each call: jobs have at most 4 KB.
+bool fits_a_job(const CeedProgram &program, std::size_t num_numbers);
 /// Whether the restrictions and the QFunction of a program are such as kernels take.
 bool is_taken(const CeedProgram &program);
 /// Whether a field goes through a basis.

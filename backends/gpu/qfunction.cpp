@@ -1,5 +1,8 @@
 #include "qfunction.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "../host/access.hpp"
 #include "../jit/compiler.hpp"
 #include "../jit/tell.hpp"
@@ -40,22 +43,33 @@ std::string kernel_text(CeedQFunction qf) {
   return text_of(qf, FunctionText(qf));
 }
 
-PointFunction::PointFunction(Device &device, CeedQFunction qf) : PointFunction(device, qf, FunctionText(qf)) {}
+namespace {
 
-PointFunction::PointFunction(Device &device, CeedQFunction qf, const FunctionText &function)
-    : device_(&device), state_(device, qf, function.may_fail) {
-  chk(CeedQFunctionGetVectorLength(qf, &vector_length_));
-  module_ = device.driver().compile("QFunction " + function.name, text_of(qf, function));
-  kernel_ = module_->kernel("hg_qfunction");
-}
+/// A text that was compiled.
+class CompiledFunction : public PointFunction {
+ public:
+  /// Throws jit::NoSource where there is none, jit::NotCompiled or DeviceError where it cannot be compiled.
+  CompiledFunction(Device &device, CeedQFunction qf) : CompiledFunction(device, qf, FunctionText(qf)) {}
+  int call(const Points &points, const std::vector<const CeedScalar *> &inputs,
+           const std::vector<CeedScalar *> &outputs) override;
 
-void PointFunction::prepare() {
-  const auto one_thread = device_->lock();
-  state_.context();
-}
+ private:
+  CompiledFunction(Device &device, CeedQFunction qf, const FunctionText &function)
+      : PointFunction(device, qf, function.may_fail) {
+    chk(CeedQFunctionGetVectorLength(qf, &vector_length_));
+    module_ = device.driver().compile("QFunction " + function.name, text_of(qf, function));
+    kernel_ = module_->kernel("hg_qfunction");
+  }
 
-int PointFunction::call(const Points &points, const std::vector<const CeedScalar *> &inputs,
-                        const std::vector<CeedScalar *> &outputs) {
+  std::unique_ptr<Module> module_;
+  Kernel kernel_;
+  CeedInt vector_length_ = 1;
+  Buffer arrays_;
+  std::vector<const void *> pointers_;  ///< what arrays_ holds
+};
+
+int CompiledFunction::call(const Points &points, const std::vector<const CeedScalar *> &inputs,
+                           const std::vector<CeedScalar *> &outputs) {
   const auto one_thread = device_->lock();
   std::vector<const void *> pointers(inputs.begin(), inputs.end());
   pointers.insert(pointers.end(), outputs.begin(), outputs.end());
@@ -72,12 +86,98 @@ int PointFunction::call(const Points &points, const std::vector<const CeedScalar
   return state_.returned();
 }
 
-namespace {
+/// A kernel that the user has loaded. It wants the points of all elements component by component, and gets so many of
+/// them at a time that copies of them are small beside what operators have.
+class UserFunction : public PointFunction {
+ public:
+  /// Throws jit::NoSource where it has more fields than such kernels take.
+  UserFunction(Device &device, CeedQFunction qf, void *kernel) : PointFunction(device, qf, false), kernel_(kernel) {
+    CeedInt num_inputs = 0, num_outputs = 0;
+    CeedQFunctionField *inputs = nullptr, *outputs = nullptr;
+    chk(CeedQFunctionGetFields(qf, &num_inputs, &inputs, &num_outputs, &outputs));
+    if (std::max(num_inputs, num_outputs) > UserFields::most) {
+      throw jit::NoSource("its kernel was given without text, and takes up to " + std::to_string(UserFields::most) +
+                          " inputs and outputs; it has " + std::to_string(num_inputs) + " and " +
+                          std::to_string(num_outputs));
+    }
+    const auto sizes_of = [](const CeedQFunctionField *fields, CeedInt count) {
+      std::vector<CeedInt> sizes(count);
+      for (CeedInt i = 0; i < count; i++) chk(CeedQFunctionFieldGetSize(fields[i], &sizes[i]));
+      return sizes;
+    };
+    input_sizes_ = sizes_of(inputs, num_inputs);
+    output_sizes_ = sizes_of(outputs, num_outputs);
+  }
+  int call(const Points &points, const std::vector<const CeedScalar *> &inputs,
+           const std::vector<CeedScalar *> &outputs) override;
 
-/// What a QFunction keeps: its function on the device, or that it has none.
-struct Kept {
-  std::unique_ptr<PointFunction> function;
+ private:
+  static constexpr CeedSize most_points = 1 << 20;  ///< at a time: enough to keep a device busy
+
+  void *kernel_;
+  std::vector<CeedInt> input_sizes_, output_sizes_;
+  Buffer copies_;
 };
+
+int UserFunction::call(const Points &points, const std::vector<const CeedScalar *> &inputs,
+                       const std::vector<CeedScalar *> &outputs) {
+  const auto one_thread = device_->lock();
+  const PointsOfElements &all = points.facts();
+  void *context = state_.context();
+  UserFields fields;
+  if (all.starts == nullptr && all.num_points == all.num_qpts) {  // one element has its fields as the kernel wants them
+    std::copy(inputs.begin(), inputs.end(), fields.inputs);
+    std::copy(outputs.begin(), outputs.end(), fields.outputs);
+    device_->driver().launch_user(kernel_, context, all.num_qpts, fields);
+    return 0;
+  }
+  const CeedSize at_once = std::min(all.num_points, most_points);
+  const CeedInt size = std::accumulate(input_sizes_.begin(), input_sizes_.end(), CeedInt{0}) +
+                       std::accumulate(output_sizes_.begin(), output_sizes_.end(), CeedInt{0});
+  const std::size_t bytes = at_once * size * sizeof(CeedScalar);
+  if (copies_.num_bytes() < bytes) copies_ = device_->allocate(bytes);
+  for (LayoutJob job{.points = all}; job.first < all.num_points; job.first += job.count) {
+    job.count = std::min(at_once, all.num_points - job.first);
+    CeedScalar *copy = copies_.as<CeedScalar>();
+    job.is_to_user = true;
+    for (std::size_t i = 0; i < inputs.size(); i++) {
+      job.size = input_sizes_[i];
+      job.from = inputs[i];
+      fields.inputs[i] = job.to = copy;
+      device_->run("hg_layout", job.count, job);
+      copy += job.count * job.size;
+    }
+    for (std::size_t o = 0; o < outputs.size(); o++) {
+      fields.outputs[o] = copy;
+      copy += job.count * output_sizes_[o];
+    }
+    device_->driver().launch_user(kernel_, context, static_cast<CeedInt>(job.count), fields);
+    job.is_to_user = false;
+    for (std::size_t o = 0; o < outputs.size(); o++) {
+      job.size = output_sizes_[o];
+      job.from = fields.outputs[o];
+      job.to = outputs[o];
+      device_->run("hg_layout", job.count, job);
+    }
+  }
+  return 0;
+}
+
+/// What a QFunction keeps.
+struct Kept {
+  void *user_kernel = nullptr;
+  bool is_made = false;                     ///< what it runs as was found out
+  std::unique_ptr<PointFunction> function;  ///< NULL: on the host
+};
+
+Kept &kept_of(CeedQFunction qf) {
+  Kept *kept = nullptr;
+  chk(CeedQFunctionGetData(qf, &kept));
+  if (kept != nullptr) return *kept;
+  auto made = std::make_unique<Kept>();
+  chk(CeedQFunctionSetData(qf, made.get()));
+  return *made.release();
+}
 
 int create(CeedQFunction qf) {
   return CeedQFunctionSetData(qf, nullptr);  // it is compiled when it is called
@@ -131,30 +231,47 @@ int apply(CeedQFunction qf, CeedInt Q, const CeedVector *u, const CeedVector *v)
 }  // namespace
 
 PointFunction *function_of(CeedQFunction qf) {
-  const Ceed ceed = CeedQFunctionReturnCeed(qf);
-  Device &device = Device::of(ceed);
+  Device &device = Device::of(CeedQFunctionReturnCeed(qf));
   const auto one_thread = device.lock();
-  Kept *kept = nullptr;
-  chk(CeedQFunctionGetData(qf, &kept));
-  if (kept == nullptr) {
-    auto made = std::make_unique<Kept>();
+  Kept &kept = kept_of(qf);
+  if (kept.is_made) return kept.function.get();
+  try {
     try {
-      made->function = std::make_unique<PointFunction>(device, qf);
-    } catch (const jit::NoSource &reason) {
-      const char *name = nullptr;
-      chk(CeedQFunctionGetName(qf, &name));
-      const std::string what = device.driver().properties().name + ": the QFunction '" + name + "' runs on the host: ";
-      jit::tell_once(what, what + reason.what());
+      kept.function = std::make_unique<CompiledFunction>(device, qf);
+    } catch (const jit::NoSource &) {
+      if (kept.user_kernel == nullptr) throw;
+      kept.function = std::make_unique<UserFunction>(device, qf, kept.user_kernel);
     }
-    chk(CeedQFunctionSetData(qf, made.get()));
-    kept = made.release();
+  } catch (const jit::NoSource &reason) {
+    const char *name = nullptr;
+    chk(CeedQFunctionGetName(qf, &name));
+    const std::string what = device.driver().properties().name + ": the QFunction '" + name + "' runs on the host: ";
+    jit::tell_once(what, what + reason.what());
   }
-  return kept->function.get();
+  kept.is_made = true;
+  return kept.function.get();
 }
 
-void fill_qfunction_ops(CeedQFunctionOps &ops) {
-  ops = {
-      .create = create, .destroy = destroy, .apply = apply, .set_cuda_function = nullptr, .set_hip_function = nullptr};
+namespace {
+
+/// What the handle of a vendor's kernel points to is the driver's affair.
+template <typename Handle>
+int set_user_kernel(CeedQFunction qf, Handle *kernel) {
+  const Ceed ceed = CeedQFunctionReturnCeed(qf);
+  return wall(ceed, [&] {
+    const auto one_thread = Device::of(ceed).lock();
+    kept_of(qf) = {.user_kernel = kernel, .is_made = false, .function = nullptr};
+  });
+}
+
+}  // namespace
+
+void fill_qfunction_ops(CeedQFunctionOps &ops, UserKernels user_kernels) {
+  ops = {.create = create,
+         .destroy = destroy,
+         .apply = apply,
+         .set_cuda_function = user_kernels == UserKernels::hip ? nullptr : set_user_kernel<CUfunc_st>,
+         .set_hip_function = user_kernels == UserKernels::cuda ? nullptr : set_user_kernel<ihipModuleSymbol_t>};
 }
 
 }  // namespace hg::gpu

@@ -18,32 +18,28 @@ namespace hg::gpu {
 /// without text, jit::NotCompiled where that is not there.
 std::string kernel_text(CeedQFunction qf);
 
-/// A QFunction that was compiled.
+/// A QFunction that runs on a device.
 class PointFunction {
  public:
-  /// Throws jit::NoSource where it came without text, jit::NotCompiled or DeviceError where that cannot be compiled.
-  PointFunction(Device &device, CeedQFunction qf);
+  PointFunction(Device &device, CeedQFunction qf, bool may_fail) : device_(&device), state_(device, qf, may_fail) {}
+  virtual ~PointFunction() = default;
 
   /// Brings to the device what it works with beside its fields, where that is not there.
-  void prepare();
+  void prepare() {
+    const auto one_thread = device_->lock();
+    state_.context();
+  }
   /// Calls it at all points; see QFunctionJob. What it returned, 0 where it returns nothing else.
-  int call(const Points &points, const std::vector<const CeedScalar *> &inputs,
-           const std::vector<CeedScalar *> &outputs);
+  virtual int call(const Points &points, const std::vector<const CeedScalar *> &inputs,
+                   const std::vector<CeedScalar *> &outputs) = 0;
 
- private:
-  PointFunction(Device &device, CeedQFunction qf, const FunctionText &function);
-
+ protected:
   Device *device_;
   FunctionState state_;
-  std::unique_ptr<Module> module_;
-  Kernel kernel_;
-  CeedInt vector_length_ = 1;
-  Buffer arrays_;
-  std::vector<const void *> pointers_;  ///< what arrays_ holds
 };
 
-/// That of a QFunction, which keeps it; NULL where it has no text for the device: it runs on the host, which is told
-/// once.
+/// That of a QFunction, which keeps it: its text, compiled, or else the user's kernel; NULL where it has neither: it
+/// runs on the host, which is told once.
 PointFunction *function_of(CeedQFunction qf);
 
 }  // namespace hg::gpu

@@ -21,7 +21,11 @@ int destroy(Ceed ceed) {
 }
 
 int set_stream(Ceed ceed, void *handle) {
-  return wall(ceed, [&] { Device::of(ceed).driver().set_stream(handle); });
+  return wall(ceed, [&] {
+    Device &device = Device::of(ceed);
+    const auto one_thread = device.lock();
+    device.driver().set_stream(handle);
+  });
 }
 
 int get_transfers(Ceed ceed, CeedTransfers *transfers) {
@@ -47,7 +51,7 @@ void init(Ceed ceed, std::shared_ptr<Driver> driver, bool is_fused, const Option
   fill_vector_ops(ops->vector);
   fill_restriction_ops(ops->restriction);
   fill_basis_ops(ops->basis);
-  fill_qfunction_ops(ops->qfunction);
+  fill_qfunction_ops(ops->qfunction, device->driver().properties().user_kernels);
   fill_operator_ops(ops->op, is_fused);
   chk(CeedSetData(ceed, device.get()));
   device.release();

@@ -14,7 +14,7 @@ namespace hg::gpu {
 void fill_vector_ops(CeedVectorOps &ops);
 void fill_restriction_ops(CeedElemRestrictionOps &ops);
 void fill_basis_ops(CeedBasisOps &ops);
-void fill_qfunction_ops(CeedQFunctionOps &ops);
+void fill_qfunction_ops(CeedQFunctionOps &ops, UserKernels user_kernels);
 void fill_operator_ops(CeedOperatorOps &ops, bool is_fused);
 
 /// Sets a Ceed up whose work is done in stages, a kernel each, on the device of `driver`: the backends .../ref; or,

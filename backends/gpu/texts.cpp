@@ -22,7 +22,7 @@ std::string first_text() {
 }
 
 std::string library_text() {
-  return first_text() + text("vector.hpp") + text("restriction.hpp") + text("basis.hpp");
+  return first_text() + text("vector.hpp") + text("restriction.hpp") + text("basis.hpp") + text("layout.hpp");
 }
 
 }  // namespace hg::gpu

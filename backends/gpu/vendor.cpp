@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <new>
+#include <system_error>
 
 #include "../jit/cache.hpp"
 #include "texts.hpp"
@@ -40,6 +42,14 @@ VendorCompiler::VendorCompiler(const Vendor &vendor)
   int major = 0, minor = 0;
   calls_.version(&major, &minor);
   version_ = std::to_string(major) + '.' + std::to_string(minor);
+  // That may be the interface's: the file tells one compiler from the next.
+  Dl_info library;
+  std::error_code error;
+  if (::dladdr(reinterpret_cast<void *>(calls_.version), &library) != 0) {
+    const std::filesystem::path file = library.dli_fname;
+    version_ += ' ' + std::to_string(std::filesystem::file_size(file, error)) + ' ' +
+                std::to_string(std::filesystem::last_write_time(file, error).time_since_epoch().count());
+  }
 }
 
 std::string VendorCompiler::compile(const std::string &name, const std::string &text,
@@ -113,6 +123,7 @@ class VendorDriver : public Driver {
   void set_stream(void *stream) override;
   std::unique_ptr<Module> compile(const std::string &name, const std::string &text) override;
   void launch(Kernel kernel, const Launch &launch, const void *job, std::size_t job_bytes) override;
+  void launch_user(void *kernel, void *context, CeedInt Q, const UserFields &fields) override;
   std::unique_ptr<Calls> make_calls() override;
 
  private:
@@ -132,7 +143,7 @@ class VendorDriver : public Driver {
   Properties properties_;
   std::vector<std::string> options_;
   void *handle_ = nullptr;
-  void *stream_ = nullptr;
+  std::atomic<void *> stream_ = nullptr;
   void *left_ = nullptr;  ///< the event that the stream before is done; NULL: no stream was left yet
 };
 
@@ -198,7 +209,8 @@ VendorDriver::VendorDriver(const Vendor &vendor, int device)
                  .warp_size = attribute(vendor.attributes.warp_size),
                  .max_threads = attribute(vendor.attributes.max_threads),
                  .shared_per_block = static_cast<std::size_t>(attribute(vendor.attributes.shared_per_block)),
-                 .num_processors = attribute(vendor.attributes.num_processors)};
+                 .num_processors = attribute(vendor.attributes.num_processors),
+                 .user_kernels = vendor.user_kernels};
   options_ = vendor.options(calls_, device);
 }
 
@@ -249,12 +261,12 @@ void VendorDriver::clear(void *memory, std::size_t bytes) {
 void VendorDriver::set_stream(void *stream) {
   if (stream == stream_) return;
   make_current();
+  void *const before = stream_.exchange(stream);
   constexpr unsigned without_time = 2;  // in both
   if (left_ == nullptr) check(calls_.create_event(&left_, without_time), "there is no event");
   // What comes next reads what was written there.
-  check(calls_.record(left_, stream_), "the stream before is not there any more");
+  check(calls_.record(left_, before), "the stream before is not there any more");
   check(calls_.wait(stream, left_, 0), "the stream cannot wait for the one before");
-  stream_ = stream;
 }
 
 std::unique_ptr<Module> VendorDriver::compile(const std::string &name, const std::string &text) {
@@ -291,6 +303,16 @@ void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, 
                       static_cast<unsigned>(launch.num_threads), 1, 1, static_cast<unsigned>(launch.shared_bytes),
                       stream_, arguments, nullptr),
         "a kernel cannot be launched");
+}
+
+void VendorDriver::launch_user(void *kernel, void *context, CeedInt Q, const UserFields &fields) {
+  if (Q == 0) return;
+  constexpr unsigned num_threads = 256;
+  make_current();
+  void *arguments[] = {&context, &Q, const_cast<UserFields *>(&fields)};
+  check(calls_.launch(kernel, (static_cast<unsigned>(Q) + num_threads - 1) / num_threads, 1, 1, num_threads, 1, 1, 0,
+                      stream_, arguments, nullptr),
+        "the user's kernel cannot be launched");
 }
 
 /// One graph without dependencies. It is made anew where other kernels are called; where only their jobs have changed,

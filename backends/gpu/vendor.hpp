@@ -97,6 +97,7 @@ struct Vendor {
   std::span<const char *const> driver_files, compiler_files;  ///< of which the first that is there is taken
   std::span<const char *const> driver_names, compiler_names;  ///< of DriverCalls and CompilerCalls
   std::span<const char *const> graph_names;                   ///< of GraphCalls; empty: there are none
+  UserKernels user_kernels;
   struct {
     int max_threads, shared_per_block, warp_size, num_processors;
   } attributes;  ///< numbers of a device's properties

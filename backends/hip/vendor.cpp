@@ -51,7 +51,8 @@ int open(const gpu::VendorLibrary &, int device, void **number) {
 
 int make_current(const gpu::VendorLibrary &driver, void *number) {
   const auto device = static_cast<int>(reinterpret_cast<std::intptr_t>(number));
-  return reinterpret_cast<int (*)(int)>(driver.symbol("hipSetDevice"))(device);
+  static const auto set = reinterpret_cast<int (*)(int)>(driver.symbol("hipSetDevice"));  // it is in each call
+  return set(device);
 }
 
 /// The compiler takes the current device's architecture.
@@ -68,6 +69,7 @@ const gpu::Vendor vendor{
     .driver_names = driver_names,
     .compiler_names = compiler_names,
     .graph_names = {},  // its nodes are for functions of the program, not of modules
+    .user_kernels = gpu::UserKernels::hip,
     .attributes = {.max_threads = 56, .shared_per_block = 74, .warp_size = 87, .num_processors = 63},
     .error = error,
     .current = current,

@@ -151,6 +151,29 @@ TEST_F(DriverTest, RefusesMoreBlocksThanAGridHas) {
                gpu::DeviceError);
 }
 
+TEST_F(DriverTest, LaunchesKernelsOfTheUsers) {
+  const auto driver = gpu::make_driver(vendor, 1);
+  EXPECT_EQ(driver->properties().user_kernels, gpu::UserKernels::cuda);
+  int context = 0, stream = 0;
+  CeedScalar in = 0, out = 0;
+  gpu::UserFields fields;
+  fields.inputs[0] = &in;
+  fields.outputs[0] = &out;
+  driver->set_stream(&stream);
+  driver->launch_user(&fake_cuda.user_kernel, &context, 0, fields);
+  EXPECT_EQ(fake_cuda.num_launched, 0);
+  driver->launch_user(&fake_cuda.user_kernel, &context, 257, fields);
+  EXPECT_EQ(fake_cuda.current, 1);
+  const FakeCuda::UserCall &call = fake_cuda.user_call;
+  EXPECT_EQ(call.context, &context);
+  EXPECT_EQ(call.Q, 257);
+  EXPECT_EQ(call.first_input, &in);
+  EXPECT_EQ(call.first_output, &out);
+  EXPECT_EQ(call.num_blocks, 2U);
+  EXPECT_EQ(call.num_threads, 256U);
+  EXPECT_EQ(call.stream, &stream);
+}
+
 /// Calls of kernels that are launched as one.
 class GraphTest : public DriverTest {
  protected:

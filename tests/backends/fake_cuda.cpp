@@ -152,9 +152,18 @@ int cuModuleGetFunction(void **function, void *, const char *) {
   *function = reinterpret_cast<void *>(static_cast<std::intptr_t>(fake_cuda.num_functions));
   return 0;
 }
-int cuLaunchKernel(void *, unsigned, unsigned, unsigned, unsigned, unsigned, unsigned, unsigned, void *, void **,
-                   void **) {
+int cuLaunchKernel(void *function, unsigned num_blocks, unsigned, unsigned, unsigned num_threads, unsigned, unsigned,
+                   unsigned, void *stream, void **arguments, void **) {
   fake_cuda.num_launched++;
+  if (function != &fake_cuda.user_kernel) return 0;
+  const auto *fields = static_cast<const void *const *>(arguments[2]);  // 16 inputs, then outputs
+  fake_cuda.user_call = {.context = *static_cast<void **>(arguments[0]),
+                         .Q = *static_cast<const int *>(arguments[1]),
+                         .first_input = fields[0],
+                         .first_output = fields[16],
+                         .num_blocks = num_blocks,
+                         .num_threads = num_threads,
+                         .stream = stream};
   return 0;
 }
 int cuGraphCreate(void **graph, unsigned) {

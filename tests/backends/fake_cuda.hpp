@@ -34,6 +34,15 @@ struct FakeCuda {
   };
   std::vector<Called> called;
   std::vector<int> allowed;  ///< bytes of shared memory that functions were allowed
+  /// A kernel of the user's: how it was called last.
+  struct UserCall {
+    void *context = nullptr;
+    int Q = 0;
+    const void *first_input = nullptr, *first_output = nullptr;
+    unsigned num_blocks = 0, num_threads = 0;
+    void *stream = nullptr;
+  } user_call;
+  char user_kernel = 0;  ///< whose address is its handle
   static constexpr int none = -1;
 };
 /// The library that is linked to a test and the one that is loaded by it are the same.

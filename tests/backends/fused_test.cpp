@@ -11,6 +11,7 @@
 
 #include "bakeoff_operator.hpp"
 #include "qfunctions/coupled.h"
+#include "qfunctions/refuse.h"
 #include "support/errors.hpp"
 #include "support/handles.hpp"
 #include "support/program.hpp"
@@ -162,6 +163,53 @@ TEST(Devices, DoNotMix) {
   ok(CeedGetErrorMessage(second, &message));
   EXPECT_NE(std::string(message).find("on device 1"), std::string::npos) << message;
 }
+
+/// Operators that are made anew for points that have moved are those that were compiled before.
+TEST(Layouts, AreKeptWhilePointsMove) {
+  const EmptyCache cache;
+  const CeedHandle ceed{open("/gpu/emu/gen")};
+  std::size_t compiled = 0;
+  for (const CeedInt per_cell : {27, 20, 9, 64, 28, 8}) {
+    const BakeoffOperator op(ceed, true, 3, 3, 4, per_cell);
+    ok(CeedOperatorPrepare(op));
+    if (compiled == 0) compiled = cache.num_files();
+    EXPECT_EQ(cache.num_files(), compiled) << per_cell << " points in a cell";
+  }
+}
+
+/// What a QFunction returns is not lost, wherever its text says it.
+class FailingFunction : public testing::TestWithParam<const char *> {};
+
+TEST_P(FailingFunction, IsAnError) {
+  const CeedHandle ceed{open(GetParam())};
+  const std::array<CeedInt, 3> strides{1, 4, 4};
+  Restriction rstr;
+  QFunction qf;
+  Operator op;
+  ok(CeedElemRestrictionCreateStrided(ceed, 3, 4, 1, 12, strides.data(), rstr.out()));
+  ok(CeedQFunctionCreateInterior(ceed, 1, refuse, refuse_loc, qf.out()));
+  ok(CeedQFunctionAddInput(qf, "u", 1, CEED_EVAL_NONE));
+  ok(CeedQFunctionAddOutput(qf, "v", 1, CEED_EVAL_NONE));
+  ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
+  for (const char *name : {"u", "v"}) ok(CeedOperatorSetField(op, name, rstr, CEED_BASIS_NONE, CEED_VECTOR_ACTIVE));
+  Values values(12, 0.5);
+  const Vector small = make_vector(ceed, values), out = make_vector(ceed, 12, 0);
+  values[9] = 2;
+  const Vector large = make_vector(ceed, values);
+  ok(CeedSetErrorHandler(ceed, CeedErrorStore));
+  for (int turn = 0; turn < 2; turn++) {  // a failure is told once
+    ok(CeedOperatorApply(op, small, out, CEED_REQUEST_IMMEDIATE));
+    EXPECT_EQ(CeedOperatorApply(op, large, out, CEED_REQUEST_IMMEDIATE), CEED_ERROR_BACKEND);
+    const char *message = nullptr;
+    ok(CeedGetErrorMessage(ceed, &message));
+    EXPECT_NE(std::string(message).find("'refuse' returned 7"), std::string::npos) << message;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, FailingFunction,
+                         testing::Values("/cpu/self/ref/serial", "/gpu/emu/ref", "/gpu/emu/gen"), [](const auto &info) {
+                           return std::string(info.param).substr(5, 3) + std::to_string(info.index);
+                         });
 
 /// A backend, and points in a cell.
 class PreparedTest : public testing::TestWithParam<std::tuple<const char *, CeedInt>> {

@@ -51,6 +51,7 @@ struct Emulated {
 #define HG_KERNEL_OF(name, Job, most, blocks) HG_KERNEL(name, Job)
 #define HG_UNROLL
 #define HG_ROLLED
+#define HG_UNROLL_BY(count)
 #define HG_SHARED(name) const hg::gpu::Shared name(hg::gpu::emulated(), 0)
 
 namespace hg::gpu {

@@ -24,6 +24,13 @@ struct Cell {
   static constexpr int line = (P * num_comp + 1) / 2 * 2, size = odd_pairs(lines * line);
 };
 
+/// Planes of nodes are taken by instructions of their own where there are few. More would not fit into the 32 KB that a
+/// processor has near, and be compiled for long (a vector's derivatives at p = 8 for 50 s instead of one).
+HG_DEVICE constexpr int planes_at_once(int P) {
+  constexpr int few = 3;
+  return P <= few ? P : 1;
+}
+
 /// Functions of a basis in each direction at one point, and their derivatives: Σ_k coefficients[k*P + n] T_k(x).
 template <int dim, int P>
 struct Functions {
@@ -53,6 +60,23 @@ struct Functions {
     HG_UNROLL for (int d = 0; d < dim; d++) {
       HG_UNROLL for (int n = 0; n < P; n++) {
         write_pair(array, lane * odd_pairs(2 * dim * P) + (d * P + n) * 2, {value[d][n], derivative[d][n]});
+      }
+    }
+  }
+};
+
+/// The functions along the third direction, of all slots. They are apart so that a plane's number need not be known
+/// when they are read, and the others can still be in registers.
+template <int dim, int P>
+struct OfPlanes {
+  CeedScalar value[slots][P], derivative[slots][P];
+
+  HG_DEVICE explicit OfPlanes(const Functions<dim, P> *at) {
+    constexpr int last = dim - 1;
+    HG_UNROLL for (int s = 0; s < slots; s++) {
+      HG_UNROLL for (int z = 0; z < P; z++) {
+        value[s][z] = at[s].value[last][z];
+        derivative[s][z] = at[s].derivative[last][z];
       }
     }
   }
@@ -119,12 +143,13 @@ template <int dim, int P, int num_comp, bool with_values, bool with_derivatives>
 HG_DEVICE void evaluate_points(const Functions<dim, P> *at, SharedArray nodes, CeedScalar (*values)[num_comp],
                                CeedScalar (*derivatives)[dim * num_comp]) {
   using Nodes = Cell<dim, P, num_comp>;
-  constexpr int P_y = dim > 1 ? P : 1, P_z = dim > 2 ? P : 1, nc = num_comp, last = dim - 1, second = dim > 1;
+  constexpr int P_y = dim > 1 ? P : 1, P_z = dim > 2 ? P : 1, nc = num_comp, second = dim > 1;
   CeedScalar sums[slots][4][nc];  // values, and derivatives along x, y and z
   HG_UNROLL for (int s = 0; s < slots; s++) {
     HG_UNROLL for (int c = 0; c < nc; c++) sums[s][0][c] = sums[s][1][c] = sums[s][2][c] = sums[s][3][c] = 0;
   }
-  HG_UNROLL for (int z = 0; z < P_z; z++) {
+  const OfPlanes<dim, P> of_planes(at);
+  HG_UNROLL_BY(planes_at_once(P_z)) for (int z = 0; z < P_z; z++) {
     CeedScalar plane[slots][3][nc];
     HG_UNROLL for (int s = 0; s < slots; s++) {
       HG_UNROLL for (int c = 0; c < nc; c++) plane[s][0][c] = plane[s][1][c] = plane[s][2][c] = 0;
@@ -153,9 +178,9 @@ HG_DEVICE void evaluate_points(const Functions<dim, P> *at, SharedArray nodes, C
       HG_UNROLL for (int c = 0; c < nc; c++) {
         HG_UNROLL for (int g = 0; g < 3; g++) {
           if (g > 0 && (!with_derivatives || g > dim)) continue;
-          sums[s][g][c] += dim > 2 ? at[s].value[last][z] * plane[s][g][c] : plane[s][g][c];
+          sums[s][g][c] += dim > 2 ? of_planes.value[s][z] * plane[s][g][c] : plane[s][g][c];
         }
-        if (with_derivatives && dim > 2) sums[s][3][c] += at[s].derivative[last][z] * plane[s][0][c];
+        if (with_derivatives && dim > 2) sums[s][3][c] += of_planes.derivative[s][z] * plane[s][0][c];
       }
     }
   }
@@ -263,10 +288,11 @@ struct CellSums {
   template <bool with_values, bool with_derivatives>
   HG_DEVICE void add(const Functions<dim, P> *at, const CeedScalar (*values)[nc],
                      const CeedScalar (*derivatives)[dim * nc]) {
-    HG_UNROLL for (int z = 0; z < P_z; z++) {
+    const OfPlanes<dim, P> of_planes(at);
+    HG_UNROLL_BY(planes_at_once(P_z)) for (int z = 0; z < P_z; z++) {
       Plane plane[slots];
       HG_UNROLL for (int s = 0; s < slots; s++) {
-        const CeedScalar f = dim > 2 ? at[s].value[last][z] : 1, df = dim > 2 ? at[s].derivative[last][z] : 0;
+        const CeedScalar f = dim > 2 ? of_planes.value[s][z] : 1, df = dim > 2 ? of_planes.derivative[s][z] : 0;
         HG_UNROLL for (int c = 0; c < nc; c++) {
           plane[s].value[c] = with_values ? f * values[s][c] : 0;
           if (with_derivatives && dim > 2) plane[s].value[c] += df * derivatives[s][last * nc + c];
@@ -302,7 +328,7 @@ struct CellSums {
     HG_UNROLL for (int i = 0; i < OfLane::size; i++) {
       if (i >= num) continue;
       const int c = (first + i) % nc, n = (first + i) / nc;
-      HG_UNROLL for (int part = 0; part < P_z * parts; part++) {
+      HG_UNROLL_BY(planes_at_once(P_z) > 1 ? P_z * parts : 1) for (int part = 0; part < P_z * parts; part++) {
         const int at = part * OfLane::size + i;
         const CeedScalar sum = is_in_shared ? CeedScalar(columns[at * threads + thread()]) : own[is_in_shared ? 0 : at];
         atomic_add(&side.values[place_of(side, cell.cell, Nodes::count, part * lines * P + n, c)], sum);

@@ -80,6 +80,17 @@ struct QFunctionJob {
   int *failed;  ///< what the function returned, where that was not 0; NULL: it returns nothing else
 };
 
+/// A field of `size` values at each of `count` points from `first` on, and its copy for a kernel of the user's: value c
+/// of the i-th of them is entry c*count + i.
+struct LayoutJob {
+  PointsOfElements points;
+  CeedSize first = 0, count = 0;
+  CeedInt size = 0;
+  bool is_to_user = true;
+  const CeedScalar *from = nullptr;
+  CeedScalar *to = nullptr;
+};
+
 /// An L-vector and the way to it: offsets of nodes, as restrictions have them, or else strides. At points the numbers
 /// of points, with the starts of the elements before them: those of the coordinates, for all that is stored at points.
 struct Side {

@@ -16,6 +16,9 @@
 #endif
 #define HG_UNROLL _Pragma("unroll")
 #define HG_ROLLED _Pragma("unroll 1")
+/// Unrolled by a number that the compiler knows.
+#define HG_PRAGMA(text) _Pragma(#text)
+#define HG_UNROLL_BY(count) HG_PRAGMA(unroll(count))
 #define HG_SHARED(name) extern __shared__ __align__(16) double name[]
 
 typedef decltype(static_cast<char *>(nullptr) - static_cast<char *>(nullptr)) ptrdiff_t;

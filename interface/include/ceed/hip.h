@@ -19,9 +19,8 @@ extern "C" {
 /// The handle of a kernel, a hipFunction_t, points to one of these.
 struct ihipModuleSymbol_t;
 
-/// Gives a QFunction the loaded kernel `f` (a hipFunction_t), for backends that launch it in place of the text of its source
-/// path. Those of this library do not: on devices they compile the text, and all others call the QFunction's C function.
-/// The caller keeps the module that the kernel is in as long as the QFunction lives. Error CEED_ERROR_INCOMPATIBLE:
+/// Gives a QFunction that has no text the loaded kernel `f` (a hipFunction_t) for HIP's backends, in everything as
+/// CeedQFunctionSetCUDAUserFunction() of ceed/cuda.h does for CUDA's. Error CEED_ERROR_INCOMPATIBLE:
 /// CEED_QFUNCTION_NONE.
 CEED_EXTERN int CeedQFunctionSetHIPUserFunction(CeedQFunction qf, struct ihipModuleSymbol_t *f);
 
