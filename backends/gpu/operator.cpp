@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "../host/access.hpp"
 #include "../jit/compiler.hpp"
+#include "../jit/tell.hpp"
 #include "fused.hpp"
 #include "staged.hpp"
 #include "tables.hpp"
@@ -96,6 +98,19 @@ int apply_add_staged(CeedOperator op, const CeedProgram *program, CeedVector in,
   return wall(CeedOperatorReturnCeed(op), [&] { apply_staged(op, *program, in, out, mode); });
 }
 
+/// Says where CEED_DEBUG asks for it that something is done in another way than as one kernel, as docs/backends.md has
+/// it.
+void tell_that_not_taken(CeedOperator op, Purpose purpose) {
+  bool is_debug = false;
+  const char *name = nullptr;
+  chk(CeedIsDebug(CeedOperatorReturnCeed(op), &is_debug));
+  if (!is_debug) return;
+  chk(CeedOperatorGetName(op, &name));
+  const std::string what = std::string("CeedOperator '") + name + "' is not one kernel: ";
+  const char *how = purpose == Purpose::apply ? "it runs in stages" : "it is assembled on the host";
+  jit::tell_once(what + how, what + how);
+}
+
 /// NULL where it is not taken.
 FusedOperator *fused_of(CeedOperator op, const CeedProgram &program, Purpose purpose) {
   auto &fused = own_kept_of(op).fused;
@@ -103,8 +118,9 @@ FusedOperator *fused_of(CeedOperator op, const CeedProgram &program, Purpose pur
   std::unique_ptr<FusedOperator> made;
   try {
     made = FusedOperator::make(Device::of(CeedOperatorReturnCeed(op)), program, purpose);
+    if (made == nullptr) tell_that_not_taken(op, purpose);
   } catch (const jit::NoSource &) {
-    // It runs on the host, which is told there.
+    // Where it runs then is told there.
   }
   return fused.emplace(purpose, std::move(made)).first->second.get();
 }

@@ -133,6 +133,22 @@ TEST_F(DriverTest, LetsAStreamWaitForTheOneBefore) {
   EXPECT_EQ(fake_cuda.num_events, 0);
 }
 
+TEST_F(DriverTest, WorksOnItsStream) {
+  const auto driver = gpu::make_driver(vendor, 0);
+  const auto module = driver->compile("nothing", "");
+  int stream = 0;
+  driver->set_stream(&stream);
+  double values[2] = {};
+  driver->copy_to_device(&values[0], &values[1], sizeof(double));
+  driver->copy_to_host(&values[0], &values[1], sizeof(double));
+  driver->copy(&values[0], &values[1], sizeof(double));
+  driver->clear(values, sizeof(double));
+  const int job = 0;
+  driver->launch(module->kernel("f"), {.num_blocks = 1, .num_threads = 32}, &job, sizeof job);
+  EXPECT_EQ(fake_cuda.worked_on, std::vector<void *>(5, &stream));
+  EXPECT_EQ(fake_cuda.waited_for, std::vector<void *>(2, &stream));  // for what came from or went to the host
+}
+
 TEST_F(DriverTest, ClearsMemory) {
   const auto driver = gpu::make_driver(vendor, 0);
   std::array<double, 3> values{1, 2, 3};

@@ -252,6 +252,20 @@ TEST_P(EmulatorTest, MakesCallsInItsOrder) {
 
 TEST_P(EmulatorTest, RefusesLaunchesThatNoDeviceTakes) {
   expect_names(error_of("", 1 << 20), "cannot be launched with 8 threads and 8388608 bytes of shared memory");
+  emu::Emulator device(emu::parse(GetParam()));
+  const auto module = device.compile("test", job_text + std::string("HG_KERNEL(test, Job) {}"));
+  const gpu::Kernel kernel = module->kernel("test");
+  const std::vector<std::byte> job(5000);
+  for (const auto &[num_blocks, bytes] :
+       {std::pair(std::uint64_t{0}, 100), std::pair(std::uint64_t{1} << 31, 100), std::pair(std::uint64_t{1}, 5000)}) {
+    try {
+      device.launch(kernel, {.num_blocks = num_blocks, .num_threads = 1}, job.data(), bytes);
+      ADD_FAILURE() << num_blocks << " blocks and " << bytes << " bytes";
+    } catch (const gpu::DeviceError &error) {
+      const std::string what = std::to_string(num_blocks) + " blocks and a job of " + std::to_string(bytes) + " bytes";
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST_P(EmulatorTest, NamesAKernelThatIsNotThereAndTextThatIsNone) {

@@ -38,6 +38,10 @@ int copy_now(void *to, const void *from, std::size_t bytes) {
   std::memcpy(to, from, bytes);
   return 0;
 }
+int copy_on(void *stream, void *to, const void *from, std::size_t bytes) {
+  fake_cuda.worked_on.push_back(stream);
+  return copy_now(to, from, bytes);
+}
 
 }  // namespace
 
@@ -102,16 +106,17 @@ int cuMemFree_v2(void *memory) {
   std::free(memory);
   return 0;
 }
-int cuMemcpyHtoDAsync_v2(void *to, const void *from, std::size_t bytes, void *) {
-  return copy_now(to, from, bytes);
+int cuMemcpyHtoDAsync_v2(void *to, const void *from, std::size_t bytes, void *stream) {
+  return copy_on(stream, to, from, bytes);
 }
-int cuMemcpyDtoHAsync_v2(void *to, const void *from, std::size_t bytes, void *) {
-  return copy_now(to, from, bytes);
+int cuMemcpyDtoHAsync_v2(void *to, const void *from, std::size_t bytes, void *stream) {
+  return copy_on(stream, to, from, bytes);
 }
-int cuMemcpyDtoDAsync_v2(void *to, const void *from, std::size_t bytes, void *) {
-  return copy_now(to, from, bytes);
+int cuMemcpyDtoDAsync_v2(void *to, const void *from, std::size_t bytes, void *stream) {
+  return copy_on(stream, to, from, bytes);
 }
-int cuMemsetD8Async(void *memory, unsigned char value, std::size_t bytes, void *) {
+int cuMemsetD8Async(void *memory, unsigned char value, std::size_t bytes, void *stream) {
+  fake_cuda.worked_on.push_back(stream);
   std::memset(memory, value, bytes);
   return 0;
 }
@@ -155,6 +160,7 @@ int cuModuleGetFunction(void **function, void *, const char *) {
 int cuLaunchKernel(void *function, unsigned num_blocks, unsigned, unsigned, unsigned num_threads, unsigned, unsigned,
                    unsigned, void *stream, void **arguments, void **) {
   fake_cuda.num_launched++;
+  fake_cuda.worked_on.push_back(stream);
   if (function != &fake_cuda.user_kernel) return 0;
   const auto *fields = static_cast<const void *const *>(arguments[2]);  // 16 inputs, then outputs
   fake_cuda.user_call = {.context = *static_cast<void **>(arguments[0]),

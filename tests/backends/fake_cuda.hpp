@@ -13,6 +13,7 @@ struct FakeCuda {
   int num_launched = 0;            ///< kernels, beside those of graphs
   int refused_loads = 0;           ///< how many times code is refused from now on
   bool is_full = false;            ///< there is no memory left
+  std::vector<void *> worked_on;   ///< the stream of each copy, clearing and kernel
   std::vector<void *> waited_for;  ///< streams, by the host
   int num_events = 0;              ///< that are there
   void *recorded = nullptr;        ///< the stream of the last event

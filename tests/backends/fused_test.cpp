@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdlib>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -131,6 +132,35 @@ TEST(Composites, AreTheSumOfTheirParts) {
     ok(CeedVectorAXPY(want, 2, part));
     expect_close(values_of(out), values_of(want), 1e-13, "sum");
   }
+}
+
+/// Who wants to know is told where an operator is not one kernel.
+TEST(Fallbacks, AreToldToWhoDebugs) {
+  const auto told = [] {
+    const CeedHandle ceed{open("/gpu/emu/gen")};
+    const std::array<CeedInt, 4> places{0, 1, 1, 2};
+    const std::array<bool, 4> flips{false, true, false, false};
+    Restriction rstr;
+    Basis basis;
+    QFunction qf;
+    Operator op;
+    ok(CeedElemRestrictionCreateOriented(ceed, 2, 2, 1, 1, 3, CEED_MEM_HOST, CEED_COPY_VALUES, places.data(),
+                                         flips.data(), rstr.out()));
+    ok(CeedBasisCreateTensorH1Lagrange(ceed, 1, 1, 2, 2, CEED_GAUSS, basis.out()));
+    ok(CeedQFunctionCreateIdentity(ceed, 1, CEED_EVAL_INTERP, CEED_EVAL_INTERP, qf.out()));
+    ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
+    ok(CeedOperatorSetName(op, "turned"));
+    for (const char *name : {"input", "output"}) ok(CeedOperatorSetField(op, name, rstr, basis, CEED_VECTOR_ACTIVE));
+    const Vector in = make_vector(ceed, 3, 1), out = make_vector(ceed, 3, 0);
+    testing::internal::CaptureStderr();
+    ok(CeedOperatorApply(op, in, out, CEED_REQUEST_IMMEDIATE));
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(told().find("one kernel"), std::string::npos);
+  ::setenv("CEED_DEBUG", "1", 1);
+  const std::string text = told();
+  ::unsetenv("CEED_DEBUG");
+  EXPECT_NE(text.find("'turned' is not one kernel: it runs in stages"), std::string::npos) << text;
 }
 
 /// Objects on one device are of no use on another.

@@ -1,4 +1,6 @@
 // Vectors on every backend: memory that is lent, copied and given away, and arithmetic against its definition.
+#include <ceed/backend.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -28,6 +30,35 @@ TEST_P(VectorConformance, CopiesValues) {
     values.assign(values.size(), -7.0);
     EXPECT_EQ(values_of(x), before);
   }
+}
+
+/// Where a backend works on a device, arrays that are there are used where they are, or copied there.
+TEST_P(VectorConformance, UsesArraysOnItsDevice) {
+  CeedMemType works_in = CEED_MEM_HOST;
+  ok(CeedGetPreferredMemType(ceed, &works_in));
+  const Values values = random.reals(100), others = random.reals(100);
+  Vector owner = make_vector(ceed, values), x = make_vector(ceed, others), copy = make_vector(ceed, 100, 0.0);
+  CeedScalar *array = nullptr, *taken = nullptr;
+  if (works_in == CEED_MEM_HOST) {
+    Values lent = values;
+    EXPECT_NE(CeedVectorSetArray(x, CEED_MEM_DEVICE, CEED_USE_POINTER, lent.data()), CEED_ERROR_SUCCESS);
+    return;
+  }
+  ok(CeedVectorGetArray(owner, CEED_MEM_DEVICE, &array));
+  CeedTransfers before, after;
+  ok(CeedGetTransfers(ceed, &before));
+  ok(CeedVectorSetArray(copy, CEED_MEM_DEVICE, CEED_COPY_VALUES, array));
+  ok(CeedVectorSetArray(x, CEED_MEM_DEVICE, CEED_USE_POINTER, array));
+  ok(CeedVectorScale(x, 2.0));
+  ok(CeedVectorTakeArray(x, CEED_MEM_DEVICE, &taken));
+  ok(CeedGetTransfers(ceed, &after));
+  EXPECT_EQ(after.num_to_device + after.num_to_host, before.num_to_device + before.num_to_host);
+  EXPECT_EQ(taken, array);
+  ok(CeedVectorRestoreArray(owner, &array));
+  EXPECT_EQ(values_of(copy), values);
+  Values twice = values;
+  for (CeedScalar &value : twice) value *= 2;
+  EXPECT_EQ(values_of(owner), twice);
 }
 
 TEST_P(VectorConformance, UsesALentArray) {

@@ -7,17 +7,19 @@ cd "$(dirname "$0")/../.."
 usage() {
   cat <<END
 usage: tests/device/run.sh [options]
+Takes less than the time that --limit gives: a step that would not end then is stopped, which is a failure.
   --backend cuda|hip|emu  whose backends: /gpu/<backend>/... (default: cuda)
   --out DIR               where JSON records and logs go (default: build/device/results)
   --prefix DIR            where GoogleTest, fmt, CLI11, nlohmann-json and xxhash are (default: build/device/prefix, which
                           pack.sh fills; where it is not there, the system's)
   --dofs N                size of the timed problems (default: 1e7)
   --degrees A-B           their degrees (default: 1-8; at points 1-3)
+  --limit N               seconds for all of it (default: 480)
   -j N                    parallel jobs (default: all cores)
 END
 }
 
-backend=cuda out=build/device/results prefix=build/device/prefix dofs=1e7 degrees=1-8 jobs=$(nproc)
+backend=cuda out=build/device/results prefix=build/device/prefix dofs=1e7 degrees=1-8 limit=480 jobs=$(nproc)
 while [ $# -gt 0 ]; do
   case "$1" in
     --backend) backend=$2; shift ;;
@@ -25,6 +27,7 @@ while [ $# -gt 0 ]; do
     --prefix) prefix=$2; shift ;;
     --dofs) dofs=$2; shift ;;
     --degrees) degrees=$2; shift ;;
+    --limit) limit=$2; shift ;;
     -j) jobs=$2; shift ;;
     -h|--help) usage; exit 0 ;;
     *) echo "run.sh: unknown option '$1'" >&2; usage >&2; exit 2 ;;
@@ -35,6 +38,11 @@ case "$backend" in cuda|hip|emu) ;; *) echo "run.sh: --backend is '$backend'; ex
 
 started=$SECONDS
 step() { printf '\n== %s (%d s)\n' "$*" $((SECONDS - started)); }
+# Runs a command for at most so many hundredths of what is left of the time.
+within() {
+  local seconds=$(((limit - SECONDS + started) * $1 / 100))
+  timeout --kill-after=5 $((seconds > 1 ? seconds : 1)) "${@:2}"
+}
 mkdir -p "$out"
 build=build/device/build
 export CEED_CACHE_DIR=$PWD/build/device/compiled CEED_JIT_ERROR_ON_FAILURE=1
@@ -52,7 +60,7 @@ where=()
                              -DCMAKE_INCLUDE_PATH="$PWD/$prefix/usr/include")
 cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DHONEYGUIDE_MECHANICS=OFF "${where[@]}" \
   > "$out/configure.log" 2>&1 || { tail -20 "$out/configure.log"; exit 1; }
-cmake --build "$build" -j "$jobs" --target ceed_$backend ceed-info ceed-conformance bps-kernel device-bandwidth \
+within 80 cmake --build "$build" -j "$jobs" --target ceed_$backend ceed-info ceed-conformance bps-kernel device-bandwidth \
   > "$out/build.log" 2>&1 || { tail -30 "$out/build.log"; exit 1; }
 
 step "Backends"
@@ -72,12 +80,19 @@ for resource in "${resources[@]}"; do
   rm -f "$log".*.log
   parts=()
   for part in $(seq 0 $((jobs - 1))); do
-    GTEST_TOTAL_SHARDS=$jobs GTEST_SHARD_INDEX=$part "$suite" --ceed "$resource" > "$log.$part.log" 2>&1 &
+    GTEST_TOTAL_SHARDS=$jobs GTEST_SHARD_INDEX=$part within 45 "$suite" --ceed "$resource" > "$log.$part.log" 2>&1 &
     parts+=($!)
   done
-  for part in "${parts[@]}"; do wait "$part" || status=1; done
+  stopped=0
+  for part in "${parts[@]}"; do
+    code=0
+    wait "$part" || code=$?
+    [ $code -eq 0 ] || status=1
+    [ $code -le 1 ] || stopped=$((stopped + 1))
+  done
   printf '%s passed, ' "$(cat "$log".*.log | grep -c '^\[       OK')"
   cat "$log".*.log | grep '^\[  FAILED' | grep ' ms)' || echo "none failed"
+  [ $stopped -eq 0 ] || echo "$stopped of $jobs parts did not come to their end: see $log.*.log"
 done
 
 sanitizer=$(command -v compute-sanitizer || ls /usr/local/cuda/bin/compute-sanitizer 2>/dev/null || true)
@@ -85,23 +100,23 @@ if [ "$backend" = cuda ] && [ -n "$sanitizer" ]; then
   step "compute-sanitizer"
   for tool in memcheck racecheck initcheck; do
     echo "$tool"
-    "$sanitizer" --tool $tool --error-exitcode 1 "$suite" --ceed "${resources[0]}" \
+    within 20 "$sanitizer" --tool $tool --error-exitcode 1 "$suite" --ceed "${resources[0]}" \
       --gtest_filter='*Vector*:*OperatorTest*:*PointsTest*' > "$out/$tool.log" 2>&1 || status=1
     tail -1 "$out/$tool.log"
   done
 fi
 
 step "Copies"
-"$build/bin/device-bandwidth" "${resources[0]}" --json "$out/bandwidth.json"
+within 20 "$build/bin/device-bandwidth" "${resources[0]}" --json "$out/bandwidth.json"
 
 points_dofs=$(python3 -c "print(max(8, float('$dofs') / 5))")  # points are placed on the host, which takes longer
 for resource in "${resources[@]}"; do
   case "$resource" in */ref) continue ;; esac  # in stages: right, not fast
   name=$(tr / _ <<<"$resource")
   step "Bake-off problems: $resource"
-  "$build/bin/bps-kernel" --ceed "$resource" --problem all --degree "$degrees" --dofs "$dofs" --reps 5 \
+  within 60 "$build/bin/bps-kernel" --ceed "$resource" --problem all --degree "$degrees" --dofs "$dofs" --reps 5 \
     --cg-iterations 1 --json "$out/bps$name.json" > "$out/bps$name.log" 2>&1 || { tail -5 "$out/bps$name.log"; status=1; }
-  "$build/bin/bps-kernel" --ceed "$resource" --problem bp1,bp2,bp3,bp4 --degree 1-3 --points 8,27 \
+  within 90 "$build/bin/bps-kernel" --ceed "$resource" --problem bp1,bp2,bp3,bp4 --degree 1-3 --points 8,27 \
     --dofs "$points_dofs" --reps 5 --cg-iterations 1 --json "$out/points$name.json" > "$out/points$name.log" 2>&1 ||
     { tail -5 "$out/points$name.log"; status=1; }
 done

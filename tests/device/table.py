@@ -4,8 +4,11 @@ import pathlib
 import sys
 
 folder = pathlib.Path(sys.argv[1])
-copies = json.loads((folder / "bandwidth.json").read_text())["gb_per_s"]
-print(f"copies: {copies:.0f} GB/s; in brackets compulsory bytes a second over that")
+bandwidth = json.loads((folder / "bandwidth.json").read_text())
+copies = bandwidth["gb_per_s"]
+at_points = bandwidth["points"]["gb_per_s"]
+print(f"copies: {copies:.0f} GB/s, by an operator whose fields are all at points {at_points:.0f} GB/s ({at_points / copies:.0%});")
+print("in brackets compulsory bytes a second over that of copies")
 for path in sorted(folder.glob("bps_*.json")) + sorted(folder.glob("points_*.json")):
     records = json.loads(path.read_text())
     if not records:
