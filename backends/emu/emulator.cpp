@@ -230,8 +230,7 @@ std::unique_ptr<gpu::Calls> Emulator::make_calls() {
 
 void Emulator::launch(gpu::Kernel kernel, const gpu::Launch &launch, const void *job, std::size_t job_bytes) {
   const auto &function = *static_cast<const Function *>(kernel.handle);
-  constexpr std::uint64_t most_blocks = std::numeric_limits<int>::max(), most_bytes = 4096;  // everywhere
-  if (launch.num_blocks < 1 || launch.num_blocks > most_blocks || job_bytes > most_bytes) {
+  if (launch.num_blocks < 1 || launch.num_blocks > gpu::most_blocks || job_bytes > gpu::most_job_bytes) {
     throw DeviceError("'" + function.name + "' cannot be launched with " + std::to_string(launch.num_blocks) +
                       " blocks and a job of " + std::to_string(job_bytes) + " bytes");
   }

@@ -49,8 +49,8 @@ class CellPrinter {
       if (!lay_out()) return {};
       print_cells();
     }
-    const std::string constants =
-        fmt::format("warp = {}, cell_lanes = {}, slots = {}", block_.warp_size, lanes_, slots_);
+    const std::string constants = fmt::format("warp = {}, cell_lanes = {}, slots = {}, most_planes = {}",
+                                              block_.warp_size, lanes_, slots_, most_planes);
     text_.text = begin_text(program_, function_, constants, "cells.hpp", !assembly_.applies(), text_) +
                  (text_.num_elem > 0 ? "  HG_SHARED(shared);\n" : "") + declarations_ + lines_ + "}\n}\n";
     return std::move(text_);
@@ -164,7 +164,7 @@ class CellPrinter {
     if (assembly_.contracts()) return;
     for (slots_ = block_.slots > 0 ? block_.slots : 2;; slots_ = 1) {
       lanes_ = block_.lanes > 0 ? std::min(block_.lanes, block_.warp_size) : lanes_of_cell();
-      sums_in_shared_ = num_sums(lanes_) > most_sums;
+      sums_in_shared_ = num_shared_sums(lanes_) > 0;
       if (slots_ == block_.slots || slots_ == 1) return;
       if (wanted_registers() <= few_registers && places_of_point(lanes_) <= most_places) return;
     }
@@ -178,10 +178,7 @@ class CellPrinter {
     const double least = more * places_of_point(fewest);
     CeedInt wanted = fewest;
     while (wanted < most && places_of_point(wanted * 2) <= least) wanted *= 2;
-    const auto bytes_with = [&](CeedInt lanes) {
-      const CeedInt sums = num_sums(lanes);
-      return bytes(sums > most_sums ? sums : 0, lanes);
-    };
+    const auto bytes_with = [&](CeedInt lanes) { return bytes(num_shared_sums(lanes), lanes); };
     while (wanted < block_.warp_size && bytes_with(wanted) > block_.shared_bytes / 5 &&
            bytes_with(2 * wanted) < bytes_with(wanted) && places_of_point(2 * wanted) <= most_places) {
       wanted *= 2;
@@ -218,6 +215,16 @@ class CellPrinter {
     return std::accumulate(integrations_.begin(), integrations_.end(), CeedInt{0},
                            [&](CeedInt sum, const Evaluation &e) { return sum + num_sums(e, lanes); });
   }
+  static bool are_planes_one_by_one(CeedInt P, CeedInt dim) { return dim == 3 && P > most_planes; }
+  /// Sums of a lane that are in shared memory: all or none. Registers have no room for many, and none for those that
+  /// are found by the number of a plane.
+  CeedInt num_shared_sums(CeedInt lanes) const {
+    const bool have_numbers = std::any_of(integrations_.begin(), integrations_.end(), [&](const Evaluation &e) {
+      return are_planes_one_by_one(spaces_[e.space].P, dim_);
+    });
+    const CeedInt sums = num_sums(lanes);
+    return have_numbers || sums > most_sums ? sums : 0;
+  }
   /// What a thread has at hand at once: the functions of its points, its sums over steps, and what the evaluation of a
   /// field, with two lines of nodes, or a part of its integration works with. For all bake-off problems up to p = 4 the
   /// compiler spills one number at most with two registers for each of these and 22 for all else.
@@ -234,9 +241,9 @@ class CellPrinter {
     for (std::size_t f = 0; f < functions_.size(); f++) {
       // Those of planes that are taken one by one are in memory; the compiler wants registers in their stead where
       // there are no derivatives, or many nodes.
-      constexpr CeedInt most_planes_at_once = 3, many_planes = 8;
+      constexpr CeedInt many_planes = 8;
       const CeedInt P = functions_[f].P;
-      const bool are_apart = dim_ == 3 && kinds[f] == 2 && P > most_planes_at_once && P < many_planes;
+      const bool are_apart = are_planes_one_by_one(P, dim_) && kinds[f] == 2 && P < many_planes;
       functions += kinds[f] * (are_apart ? dim_ - 1 : dim_) * P;
     }
     for (CeedInt i = 0; i < program_.num_inputs; i++) {
@@ -435,6 +442,7 @@ class CellPrinter {
   CeedInt dim_ = 0, lanes_ = 1, slots_ = 1, of_cell_ = 0;
   static constexpr CeedInt most_sums = 9;  ///< that registers are to keep over all steps of a cell
   static constexpr double most_places = 2;  ///< for a point
+  static constexpr CeedInt most_planes = 3;  ///< as text/cells.hpp has it
   bool sums_in_shared_ = false;
   std::vector<Functions> functions_;
   OperatorText text_;

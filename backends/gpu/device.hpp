@@ -107,13 +107,13 @@ class Device {
   /// Compiles the library, or loads it, where that was not done yet.
   void prepare() { library(); }
 
-  static constexpr int usual_threads = 256;
   const Tuning &tuning() const { return tuning_; }
   /// The layout that operators at points of one kind have had so far, by a hash of the kind; zeros where there was
   /// none.
   struct Layout {
     int lanes = 0, slots = 0;
   };
+  /// For who holds lock().
   Layout &layout_of(std::size_t kind) { return layouts_[kind]; }
 
  private:

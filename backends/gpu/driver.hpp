@@ -47,6 +47,10 @@ class Module {
   virtual Kernel kernel(const char *name) = 0;
 };
 
+constexpr std::uint64_t most_blocks = 2147483647;  ///< of a launch, everywhere
+constexpr std::size_t most_job_bytes = 4096;       ///< that a launch takes, everywhere
+constexpr int usual_threads = 256;                 ///< of a block, where nothing speaks for another number
+
 /// How many threads run a kernel, in one direction.
 struct Launch {
   std::uint64_t num_blocks;

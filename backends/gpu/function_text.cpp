@@ -16,28 +16,37 @@ using host::chk;
 
 namespace {
 
+/// Where the line goes on after the backslash `at`, which may be followed by blanks; `at` where it does not.
+std::size_t end_of_continuation(std::string_view text, std::size_t at) {
+  const auto end = text.find_first_not_of(" \t\r", at + 1);
+  return text[at] == '\\' && end != std::string_view::npos && text[end] == '\n' ? end : at;
+}
+
 /// A text without its comments, what literals say, and ends of lines that are continued.
-std::string bare(std::string_view text) {
-  std::string code;
+std::string bare(std::string_view all) {
+  std::string text, code;
+  for (std::size_t i = 0; i < all.size(); i++) {
+    const std::size_t end = end_of_continuation(all, i);
+    if (end == i) text += all[i];
+    i = end;
+  }
   for (std::size_t i = 0; i < text.size(); i++) {
-    const std::string_view two = text.substr(i, 2);
-    const auto skip_to = [&](std::string_view end, std::size_t from) {
-      const auto found = text.find(end, from);
-      i = found == std::string_view::npos ? text.size() : found + end.size() - 1;
+    const std::string_view two = std::string_view(text).substr(i, 2);
+    const auto skip_to = [&](std::string_view end) {
+      const auto found = text.find(end, i + 2);
+      i = found == std::string::npos ? text.size() : found + end.size() - 1;
     };
+    const bool is_separator = i > 0 && std::isdigit(static_cast<unsigned char>(text[i - 1])) != 0;  // 1'000
     if (two == "//") {
-      skip_to("\n", i + 2);
+      skip_to("\n");
       code += '\n';
     } else if (two == "/*") {
-      skip_to("*/", i + 2);
+      skip_to("*/");
       code += ' ';
-    } else if (two == "\\\n") {
-      i++;
-    } else if (text[i] == '"' ||
-               (text[i] == '\'' && (i == 0 || std::isalnum(static_cast<unsigned char>(text[i - 1])) == 0))) {
+    } else if (text[i] == '"' || (text[i] == '\'' && !is_separator)) {
       const char quote = text[i];
       for (i++; i < text.size() && text[i] != quote && text[i] != '\n'; i++) i += text[i] == '\\' ? 1 : 0;
-      code += "0";
+      code += i < text.size() && text[i] == '\n' ? "0\n" : "0";
     } else {
       code += text[i];
     }
@@ -85,30 +94,36 @@ std::set<std::string, std::less<>> returning_macros(std::string_view code) {
   return returning;
 }
 
-/// Whether a QFunction returns other things than 0 and the name of success, by its text; so do those whose body is not
-/// found, and those that use a macro that returns.
-bool may_fail(const std::string &text, const std::string &function) {
-  const std::string code = bare(text);
-  const std::string head = "CEED_QFUNCTION(" + function + ")";
-  auto begin = std::string::npos;
-  for (auto name = code.find(head); name != std::string::npos; name = code.find(head, name + 1)) {
-    const auto next = code.find_first_of("{;", name);
-    if (next != std::string::npos && code[next] == '{') begin = next;  // not where it is only declared
-  }
-  if (begin == std::string::npos) return true;
-  auto end = begin;
+/// Whether a body, up to the brace that closes it, returns other things than 0 and the name of success.
+bool body_may_fail(std::string_view code, const std::set<std::string, std::less<>> &macros) {
+  std::size_t end = 0;
   for (int depth = 0; end < code.size(); end++) {
     depth += code[end] == '{' ? 1 : code[end] == '}' ? -1 : 0;
     if (depth == 0) break;
   }
-  const std::string_view body = std::string_view(code).substr(begin, end - begin), word = "return";
-  if (has_word(body, returning_macros(code))) return true;
+  const std::string_view body = code.substr(0, end), word = "return";
+  if (has_word(body, macros)) return true;
   for (auto at = body.find(word); at != std::string_view::npos; at = body.find(word, at + 1)) {
     std::string value(body.substr(at + word.size(), body.find(';', at) - at - word.size()));
     std::erase_if(value, [](unsigned char c) { return std::isspace(c) != 0; });
     if (value != "0" && value != "CEED_ERROR_SUCCESS") return true;
   }
   return false;
+}
+
+/// Whether a QFunction may return anything else than 0, by its text, which is not preprocessed: by any of its bodies,
+/// or where none is found.
+bool may_fail(const std::string &text, const std::string &function) {
+  const std::string code = bare(text), head = "CEED_QFUNCTION(" + function + ")";
+  const auto macros = returning_macros(code);
+  bool is_found = false;
+  for (auto name = code.find(head); name != std::string::npos; name = code.find(head, name + 1)) {
+    const auto begin = code.find('{', name);
+    if (begin == std::string::npos) break;
+    is_found = true;
+    if (body_may_fail(std::string_view(code).substr(begin), macros)) return true;
+  }
+  return !is_found;
 }
 
 }  // namespace

@@ -113,8 +113,11 @@ OperatorText lasting_text(Device &device, Block block, const CeedProgram &progra
   constexpr double many_more = 1.25;
   OperatorText best = cells_text(block, program, function, purpose);
   if (best.lanes == 0 || block.lanes != 0 || block.slots != 0) return best;
-  block.lanes = block.slots = 1;  // any layout: such a text says nothing of the points
+  // A layout that says nothing of the points, and fits where any does.
+  block.lanes = block.warp_size;
+  block.slots = 1;
   const OperatorText kind = cells_text(block, program, function, purpose);
+  if (kind.text.empty()) return best;
   const auto one_thread = device.lock();
   Device::Layout &layout = device.layout_of(std::hash<std::string>()(kind.text));
   if (layout.lanes != 0 && (layout.lanes != best.lanes || layout.slots != best.slots)) {

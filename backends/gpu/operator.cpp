@@ -120,7 +120,8 @@ FusedOperator *fused_of(CeedOperator op, const CeedProgram &program, Purpose pur
     made = FusedOperator::make(Device::of(CeedOperatorReturnCeed(op)), program, purpose);
     if (made == nullptr) tell_that_not_taken(op, purpose);
   } catch (const jit::NoSource &) {
-    // Where it runs then is told there.
+    // Where the QFunction runs on the host, that is told there.
+    if (purpose == Purpose::apply && function_of(program.qf) != nullptr) tell_that_not_taken(op, purpose);
   }
   return fused.emplace(purpose, std::move(made)).first->second.get();
 }

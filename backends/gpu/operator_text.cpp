@@ -25,11 +25,10 @@ bool is_taken(const CeedProgram &program) {
 }
 
 bool fits_a_job(const CeedProgram &program, std::size_t num_numbers) {
-  constexpr std::size_t most = 4096;
   const auto num_sides = static_cast<std::size_t>(std::max(program.num_sources, 1) + std::max(program.num_sinks, 1));
   return sizeof(OperatorFacts) + num_sides * sizeof(Side) +
              std::max<std::size_t>(num_numbers, 1) * sizeof(CeedScalar) <=
-         most;
+         most_job_bytes;
 }
 
 bool is_alone(const CeedProgram &program, CeedInt sink) {

@@ -50,7 +50,7 @@ OperatorText cells_text(const Block &block, const CeedProgram &program, const Fu
 
 // What both have.
 
-/// Whether so many numbers can be told with each call: jobs have at most 4 KB.
+/// Whether so many numbers can be told with each call, in the bytes of a job.
 bool fits_a_job(const CeedProgram &program, std::size_t num_numbers);
 /// Whether the restrictions and the QFunction of a program are such as kernels take.
 bool is_taken(const CeedProgram &program);

@@ -253,14 +253,14 @@ int filter(CeedVector x, CeedScalar threshold) {
 
 int norm(CeedVector vec, CeedNormType type, CeedScalar *norm) {
   return with(vec, [&](Vector &v) {
-    constexpr CeedSize most_blocks = 1024, of_block = CeedSize{4} * Device::usual_threads;
+    constexpr CeedSize most_blocks = 1024, of_block = CeedSize{4} * usual_threads;
     const CeedSize num_blocks = std::min(most_blocks, (v.length + of_block - 1) / of_block);
     const Buffer norms = v.device.allocate(num_blocks * sizeof(CeedScalar));
     const NormJob job{.length = v.length, .type = type, .x = v.read(CEED_MEM_DEVICE), .norms = norms.as<CeedScalar>()};
     v.device.run("hg_norm",
                  Launch{.num_blocks = static_cast<std::uint64_t>(num_blocks),
-                        .num_threads = Device::usual_threads,
-                        .shared_bytes = Device::usual_threads * sizeof(CeedScalar),
+                        .num_threads = usual_threads,
+                        .shared_bytes = usual_threads * sizeof(CeedScalar),
                         .has_barriers = true},
                  job);
     std::vector<CeedScalar> of_blocks(num_blocks);

@@ -261,12 +261,12 @@ void VendorDriver::clear(void *memory, std::size_t bytes) {
 void VendorDriver::set_stream(void *stream) {
   if (stream == stream_) return;
   make_current();
-  void *const before = stream_.exchange(stream);
   constexpr unsigned without_time = 2;  // in both
   if (left_ == nullptr) check(calls_.create_event(&left_, without_time), "there is no event");
   // What comes next reads what was written there.
-  check(calls_.record(left_, before), "the stream before is not there any more");
+  check(calls_.record(left_, stream_), "the stream before is not there any more");
   check(calls_.wait(stream, left_, 0), "the stream cannot wait for the one before");
+  stream_ = stream;
 }
 
 std::unique_ptr<Module> VendorDriver::compile(const std::string &name, const std::string &text) {
@@ -285,9 +285,9 @@ std::unique_ptr<Module> VendorDriver::compile(const std::string &name, const std
 }
 
 void VendorDriver::allow(Kernel kernel, const Launch &launch) const {
-  if (launch.num_blocks > std::numeric_limits<int>::max()) {
+  if (launch.num_blocks > most_blocks) {
     throw DeviceError(std::string(vendor_.name) + ": a kernel of " + std::to_string(launch.num_blocks) +
-                      " blocks; at most 2147483647 are possible");
+                      " blocks; at most " + std::to_string(most_blocks) + " are possible");
   }
   make_current();
   constexpr std::size_t usual_shared = 48 << 10;
@@ -307,7 +307,7 @@ void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, 
 
 void VendorDriver::launch_user(void *kernel, void *context, CeedInt Q, const UserFields &fields) {
   if (Q == 0) return;
-  constexpr unsigned num_threads = 256;
+  constexpr unsigned num_threads = usual_threads;
   make_current();
   void *arguments[] = {&context, &Q, const_cast<UserFields *>(&fields)};
   check(calls_.launch(kernel, (static_cast<unsigned>(Q) + num_threads - 1) / num_threads, 1, 1, num_threads, 1, 1, 0,

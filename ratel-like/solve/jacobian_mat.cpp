@@ -96,7 +96,6 @@ void JacobianMat::pattern() {
   rows_.assign(rows, rows + count);
   columns_.assign(columns, columns + count);
   ceed_check(CeedVectorCreate(mesh_.ceed, count + num_rows_, entries_.put()));
-  ceed_check(CeedVectorCreate(mesh_.ceed, num_rows_, diagonal_entries_.put()));
   ceed_check(CeedVectorCreate(mesh_.ceed, num_rows_, indicator_.put()));
 
   // Every row has its diagonal, also where no cell contributes, so that the pattern outlives a change of inactive rows.
@@ -127,16 +126,19 @@ void JacobianMat::update(double damping) {
       ceed_check(CeedOperatorLinearAssemble(op_, entries_));
     }
     const CeedMemType memory = memory_of_values();
-    CeedScalar *values, *diagonal;
+    CeedScalar *values;
     ceed_check(CeedVectorGetArray(entries_, memory, &values));
     // What comes after the elements' entries is 0, but for the diagonal of rows that are inactive.
     if (inactive_->indicator() != nullptr) {
-      ceed_check(CeedVectorSetArray(diagonal_entries_, memory, CEED_USE_POINTER, values + rows_.size()));
+      CeedVectorHandle diagonal;
+      ceed_check(CeedVectorCreate(mesh_.ceed, num_rows_, diagonal.put()));
+      ceed_check(CeedVectorSetArray(diagonal, memory, CEED_USE_POINTER, values + rows_.size()));
       {
         Lend indicator(inactive_->indicator(), indicator_, Access::read);
-        ceed_check(CeedVectorCopy(indicator_, diagonal_entries_));
+        ceed_check(CeedVectorCopy(indicator_, diagonal));
       }
-      ceed_check(CeedVectorTakeArray(diagonal_entries_, memory, &diagonal));
+      CeedScalar *taken;
+      ceed_check(CeedVectorTakeArray(diagonal, memory, &taken));
     }
     petsc_check(MatSetValuesCOO(mat_, values, INSERT_VALUES));
     ceed_check(CeedVectorRestoreArray(entries_, &values));

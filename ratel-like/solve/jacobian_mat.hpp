@@ -60,7 +60,7 @@ class JacobianMat {
   VecHandle local_in_, local_out_;
   CeedVectorHandle ceed_in_, ceed_out_;
   /// Entries of the elements, then those of the diagonal, which inactive rows have.
-  CeedVectorHandle entries_, diagonal_entries_, indicator_;
+  CeedVectorHandle entries_, indicator_;
   std::vector<CeedInt> rows_, columns_;  ///< of the pattern in force, to know when it changes
 };
 

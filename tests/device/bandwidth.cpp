@@ -23,7 +23,7 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Seconds of one call of f: the best of ten times ten, after as many that are not counted.
+/// Seconds of one call of f: the best of ten times ten, after ten that are not counted.
 template <typename F>
 double best_seconds(Ceed ceed, F &&f) {
   constexpr int batch = 10, turns = 11;

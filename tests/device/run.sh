@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 usage() {
   cat <<END
 usage: tests/device/run.sh [options]
-Takes less than the time that --limit gives: a step that would not end then is stopped, which is a failure.
+Each step gets a part of the time that is left of --limit; one that takes longer is stopped, which is a failure.
   --backend cuda|hip|emu  whose backends: /gpu/<backend>/... (default: cuda)
   --out DIR               where JSON records and logs go (default: build/device/results)
   --prefix DIR            where GoogleTest, fmt, CLI11, nlohmann-json and xxhash are (default: build/device/prefix, which
@@ -44,6 +44,7 @@ within() {
   timeout --kill-after=5 $((seconds > 1 ? seconds : 1)) "${@:2}"
 }
 mkdir -p "$out"
+rm -f "$out"/{bandwidth,bps,points}*.json
 build=build/device/build
 export CEED_CACHE_DIR=$PWD/build/device/compiled CEED_JIT_ERROR_ON_FAILURE=1
 # The vendor's compiler where it is installed beside the system's libraries.
@@ -107,7 +108,9 @@ if [ "$backend" = cuda ] && [ -n "$sanitizer" ]; then
 fi
 
 step "Copies"
-within 20 "$build/bin/device-bandwidth" "${resources[0]}" --json "$out/bandwidth.json"
+for resource in "${resources[@]}"; do
+  within 20 "$build/bin/device-bandwidth" "$resource" --json "$out/bandwidth$(tr / _ <<<"$resource").json" || status=1
+done
 
 points_dofs=$(python3 -c "print(max(8, float('$dofs') / 5))")  # points are placed on the host, which takes longer
 for resource in "${resources[@]}"; do

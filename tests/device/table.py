@@ -4,13 +4,30 @@ import pathlib
 import sys
 
 folder = pathlib.Path(sys.argv[1])
-bandwidth = json.loads((folder / "bandwidth.json").read_text())
-copies = bandwidth["gb_per_s"]
-at_points = bandwidth["points"]["gb_per_s"]
-print(f"copies: {copies:.0f} GB/s, by an operator whose fields are all at points {at_points:.0f} GB/s ({at_points / copies:.0%});")
+
+
+def read(path):
+    """What a file holds; nothing where its program was stopped while it wrote it."""
+    try:
+        return json.loads(path.read_text())
+    except (OSError, json.JSONDecodeError):
+        print(f"{path} cannot be read")
+        return None
+
+
+copies = None
+for path in sorted(folder.glob("bandwidth_*.json")):
+    rates = read(path)
+    if not rates:
+        continue
+    copies = max(copies or 0, rates["gb_per_s"])
+    own, stored = rates["gb_per_s"], rates["points"]["gb_per_s"]
+    print(f"{rates['ceed']}: copies {own:.0f} GB/s, where all fields are at points {stored:.0f} GB/s ({stored / own:.0%})")
+if copies is None:
+    sys.exit("there is no rate of copies")
 print("in brackets compulsory bytes a second over that of copies")
 for path in sorted(folder.glob("bps_*.json")) + sorted(folder.glob("points_*.json")):
-    records = json.loads(path.read_text())
+    records = read(path)
     if not records:
         continue
     at_points = path.name.startswith("points_")

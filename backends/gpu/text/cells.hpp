@@ -3,6 +3,7 @@
 //   threads, warp  threads of a block, and of a warp
 //   cell_lanes     threads of a cell
 //   slots          points of a thread in a step
+//   most_planes    planes of nodes that are taken by instructions of their own
 // In shared memory are the coefficients of the cells. A thread has the basis functions at its points in registers, and
 // what its QFunction gives them; what the points of a cell give to its nodes is summed by exchange in the warp, which
 // leaves each lane with its share of the nodes. No thread waits for more than its warp.
@@ -25,10 +26,9 @@ struct Cell {
 };
 
 /// Planes of nodes are taken by instructions of their own where there are few. More would not fit into the 32 KB that a
-/// processor has near, and be compiled for long (a vector's derivatives at p = 8 for 50 s instead of one).
+/// processor has near, and be compiled for long (a vector's derivatives at p = 8 for 50 s instead of 1.5).
 HG_DEVICE constexpr int planes_at_once(int P) {
-  constexpr int few = 3;
-  return P <= few ? P : 1;
+  return P <= most_planes ? P : 1;
 }
 
 /// Functions of a basis in each direction at one point, and their derivatives: Σ_k coefficients[k*P + n] T_k(x).
@@ -328,7 +328,7 @@ struct CellSums {
     HG_UNROLL for (int i = 0; i < OfLane::size; i++) {
       if (i >= num) continue;
       const int c = (first + i) % nc, n = (first + i) / nc;
-      HG_UNROLL_BY(planes_at_once(P_z) > 1 ? P_z * parts : 1) for (int part = 0; part < P_z * parts; part++) {
+      HG_UNROLL_BY(planes_at_once(P_z) == P_z ? P_z * parts : 1) for (int part = 0; part < P_z * parts; part++) {
         const int at = part * OfLane::size + i;
         const CeedScalar sum = is_in_shared ? CeedScalar(columns[at * threads + thread()]) : own[is_in_shared ? 0 : at];
         atomic_add(&side.values[place_of(side, cell.cell, Nodes::count, part * lines * P + n, c)], sum);

@@ -20,12 +20,12 @@ extern "C" {
 struct CUfunc_st;
 
 /// Gives a QFunction that has no text (`source` NULL or "") the loaded kernel `f` (a CUfunction), which CUDA's backends
-/// launch as f(void *context, CeedInt Q, fields) with Q threads or more, in blocks of 256. The context is on the
-/// device; `fields` is a struct of 16 pointers to inputs and 16 to outputs, passed by value: value c of point i of a
-/// field is its entry c*Q + i, as for the C function. It is called in an operator's stages, for up to 2^20 points at a
-/// time. Backends that work elsewhere pass over it; assembly, and QFunctions with more fields, call the C function on
-/// the host. The caller keeps the kernel's module as long as the QFunction lives. Error CEED_ERROR_INCOMPATIBLE:
-/// CEED_QFUNCTION_NONE.
+/// launch as f(void *context, CeedInt Q, fields) with Q threads or more, in blocks of 256. The context is on the device;
+/// `fields` is a struct of 16 pointers to inputs and 16 to outputs, passed by value: value c of point i of a field is its
+/// entry c*Q + i, as for the C function. CeedQFunctionApply() calls it, and operators do in stages, for the points of
+/// several elements up to 2^20 at a time. What it writes to its context is not seen on the host. Backends that work
+/// elsewhere pass over it; assembly, and QFunctions with more fields, call the C function on the host. The caller keeps the
+/// kernel's module as long as the QFunction lives. Error CEED_ERROR_INCOMPATIBLE: CEED_QFUNCTION_NONE.
 CEED_EXTERN int CeedQFunctionSetCUDAUserFunction(CeedQFunction qf, struct CUfunc_st *f);
 
 #ifdef __cplusplus

@@ -19,3 +19,10 @@ CEED_QFUNCTION(refuse)
   }
   return 0;
 }
+
+#ifdef HG_TEST_NEVER
+CEED_QFUNCTION(refuse)
+(void *, CeedInt, const CeedScalar *const *, CeedScalar *const *) {
+  return 0;
+}
+#endif
