@@ -10,6 +10,13 @@ AssemblyText::AssemblyText(const CeedProgram &program, Purpose purpose) : progra
   if (purpose == Purpose::apply || purpose == Purpose::qfunction) return;
   is_taken_ = find(program.inputs, program.num_inputs, program.sources, trials_) &&
               find(program.outputs, program.num_outputs, program.sinks, tests_);
+  // Each coupling is a text of its own: 1600 of them, of 40 fields, are compiled for minutes.
+  constexpr int most_couplings = 64;
+  int num_couplings = 0;
+  for (const Active &trial : trials_) {
+    for (const Active &test : tests_) num_couplings += are_coupled(trial, test) ? 1 : 0;
+  }
+  is_taken_ = is_taken_ && num_couplings <= most_couplings;
 }
 
 bool AssemblyText::are_coupled(const Active &trial, const Active &test) const {

@@ -29,7 +29,8 @@ class AssemblyText {
  public:
   AssemblyText(const CeedProgram &program, Purpose purpose);
 
-  /// Not taken: active fields that go through no basis, or through several.
+  /// Not taken: active fields that go through no basis, or through several, and more than 64 couplings of inputs and
+  /// outputs.
   bool is_taken() const { return is_taken_; }
   /// No assembly at all: the operator is applied.
   bool applies() const { return purpose_ == Purpose::apply; }
