@@ -35,10 +35,7 @@ Kept *kept_of(CeedOperator op) {
 }
 
 Kept &own_kept_of(CeedOperator op) {
-  if (Kept *kept = kept_of(op)) return *kept;
-  auto made = std::make_unique<Kept>();
-  chk(CeedOperatorSetData(op, made.get()));
-  return *made.release();
+  return kept_with<Kept>(op, CeedOperatorGetData, CeedOperatorSetData);
 }
 
 int create(CeedOperator op, const CeedProgram *) {

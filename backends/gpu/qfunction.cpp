@@ -171,12 +171,7 @@ struct Kept {
 };
 
 Kept &kept_of(CeedQFunction qf) {
-  Kept *kept = nullptr;
-  chk(CeedQFunctionGetData(qf, &kept));
-  if (kept != nullptr) return *kept;
-  auto made = std::make_unique<Kept>();
-  chk(CeedQFunctionSetData(qf, made.get()));
-  return *made.release();
+  return kept_with<Kept>(qf, CeedQFunctionGetData, CeedQFunctionSetData);
 }
 
 int create(CeedQFunction qf) {

@@ -133,12 +133,7 @@ struct Kept {
 };
 
 Kept &kept_of(CeedElemRestriction rstr) {
-  Kept *kept = nullptr;
-  chk(CeedElemRestrictionGetData(rstr, &kept));
-  if (kept != nullptr) return *kept;
-  auto made = std::make_unique<Kept>();
-  chk(CeedElemRestrictionSetData(rstr, made.get()));
-  return *made.release();
+  return kept_with<Kept>(rstr, CeedElemRestrictionGetData, CeedElemRestrictionSetData);
 }
 
 int create(CeedElemRestriction rstr) {

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "../host/access.hpp"
 #include "driver.hpp"
 #include "options.hpp"
 
@@ -31,6 +32,17 @@ constexpr CeedBackend on_device(const char *resource, unsigned priority, decltyp
           .aliases = nullptr,
           .score = score,
           .init = init};
+}
+
+/// What a backend keeps with an object, by the object's functions for that; made where there is none yet.
+template <typename Kept, typename Object>
+Kept &kept_with(Object object, int (*get)(Object, void *), int (*set)(Object, void *)) {
+  Kept *kept = nullptr;
+  host::chk(get(object, &kept));
+  if (kept != nullptr) return *kept;
+  auto made = std::make_unique<Kept>();
+  host::chk(set(object, made.get()));
+  return *made.release();
 }
 
 /// The tables of the reference.
