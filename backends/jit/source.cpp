@@ -102,8 +102,9 @@ Include included_by(std::string_view line) {
 
 Defines lines_of(const std::vector<std::string> &defines) {
   Defines lines;
-  for (const auto &define : defines) {
-    if (define[0] == '-') continue;
+  for (std::string define : defines) {
+    if (define.starts_with("-D")) define.erase(0, std::min(define.find_first_not_of(' ', 2), define.size()));
+    if (define.empty() || define[0] == '-') continue;
     const auto equals = define.find('=');
     const bool has_value = equals != std::string::npos;
     lines.begin += "#define " + define.substr(0, equals) + ' ' + (has_value ? define.substr(equals + 1) : "1") + '\n';

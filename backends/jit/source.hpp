@@ -32,8 +32,8 @@ Include included_by(std::string_view line);
 /// The words of a directive after `#`, or nothing.
 std::string_view directive(std::string_view line);
 
-/// Lines that define what is defined for a QFunction, and lines that end that: our own text does not see it. What
-/// begins with a dash is an option for a compiler, and left out.
+/// Lines that define what is defined for a QFunction ("NAME", "NAME=VALUE", "-DNAME=VALUE"), and lines that end that:
+/// our own text does not see it. What else begins with a dash is an option for a compiler, and left out.
 struct Defines {
   std::string begin, end;
 };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bakeoff_operator.hpp"
+#include "qfunctions/by_factor.h"
 #include "qfunctions/coupled.h"
 #include "qfunctions/refuse.h"
 #include "support/errors.hpp"
@@ -209,35 +210,65 @@ TEST(Layouts, AreKeptWhilePointsMove) {
   }
 }
 
+/// A QFunction of u and v in one operator, on 12 values in three elements.
+class Stored {
+ public:
+  Stored(Ceed ceed, CeedQFunctionUser function, const char *source) : ceed_(ceed) {
+    const std::array<CeedInt, 3> strides{1, 4, 4};
+    Restriction rstr;
+    QFunction qf;
+    ok(CeedElemRestrictionCreateStrided(ceed, 3, 4, 1, 12, strides.data(), rstr.out()));
+    ok(CeedQFunctionCreateInterior(ceed, 1, function, source, qf.out()));
+    ok(CeedQFunctionAddInput(qf, "u", 1, CEED_EVAL_NONE));
+    ok(CeedQFunctionAddOutput(qf, "v", 1, CEED_EVAL_NONE));
+    ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op_.out()));
+    for (const char *name : {"u", "v"}) ok(CeedOperatorSetField(op_, name, rstr, CEED_BASIS_NONE, CEED_VECTOR_ACTIVE));
+    out_ = make_vector(ceed, 12, 0);
+  }
+  int apply(const Values &u) { return CeedOperatorApply(op_, make_vector(ceed_, u), out_, CEED_REQUEST_IMMEDIATE); }
+  Values result() const { return values_of(out_); }
+
+ private:
+  Ceed ceed_;
+  Operator op_;
+  Vector out_;
+};
+
 /// What a QFunction returns is not lost, wherever its text says it.
 class FailingFunction : public testing::TestWithParam<const char *> {};
 
 TEST_P(FailingFunction, IsAnError) {
   const CeedHandle ceed{open(GetParam())};
-  const std::array<CeedInt, 3> strides{1, 4, 4};
-  Restriction rstr;
-  QFunction qf;
-  Operator op;
-  ok(CeedElemRestrictionCreateStrided(ceed, 3, 4, 1, 12, strides.data(), rstr.out()));
-  ok(CeedQFunctionCreateInterior(ceed, 1, refuse, refuse_loc, qf.out()));
-  ok(CeedQFunctionAddInput(qf, "u", 1, CEED_EVAL_NONE));
-  ok(CeedQFunctionAddOutput(qf, "v", 1, CEED_EVAL_NONE));
-  ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
-  for (const char *name : {"u", "v"}) ok(CeedOperatorSetField(op, name, rstr, CEED_BASIS_NONE, CEED_VECTOR_ACTIVE));
-  Values values(12, 0.5);
-  const Vector small = make_vector(ceed, values), out = make_vector(ceed, 12, 0);
-  values[9] = 2;
-  const Vector large = make_vector(ceed, values);
+  Stored op(ceed, refuse, refuse_loc);
+  const Values small(12, 0.5);
+  Values large = small;
+  large[9] = 2;
   ok(CeedSetErrorHandler(ceed, CeedErrorStore));
   for (int turn = 0; turn < 2; turn++) {  // a failure is told once
-    ok(CeedOperatorApply(op, small, out, CEED_REQUEST_IMMEDIATE));
-    EXPECT_EQ(CeedOperatorApply(op, large, out, CEED_REQUEST_IMMEDIATE), CEED_ERROR_BACKEND);
+    ok(op.apply(small));
+    EXPECT_EQ(op.apply(large), CEED_ERROR_BACKEND);
     const char *message = nullptr;
     ok(CeedGetErrorMessage(ceed, &message));
     EXPECT_NE(std::string(message).find("'refuse' returned 7"), std::string::npos) << message;
   }
 }
 
+/// What a program defines for its QFunctions reaches them on devices, in each form.
+class DefinesTest : public testing::TestWithParam<std::tuple<const char *, const char *>> {};
+
+TEST_P(DefinesTest, ReachQFunctions) {
+  const auto [resource, define] = GetParam();
+  const CeedHandle ceed{open(resource)};
+  ok(CeedAddJitDefine(ceed, define));
+  Stored op(ceed, by_factor, by_factor_loc);
+  ok(op.apply(Values(12, 0.5)));
+  EXPECT_EQ(op.result(), Values(12, 3.5));
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, DefinesTest,
+                         testing::Combine(testing::Values("/gpu/emu/ref", "/gpu/emu/gen"),
+                                          testing::Values("HG_TEST_FACTOR=7", "-DHG_TEST_FACTOR=7")),
+                         [](const auto &info) { return "Case" + std::to_string(info.index); });
 INSTANTIATE_TEST_SUITE_P(Backends, FailingFunction,
                          testing::Values("/cpu/self/ref/serial", "/gpu/emu/ref", "/gpu/emu/gen"), [](const auto &info) {
                            return std::string(info.param).substr(5, 3) + std::to_string(info.index);

@@ -283,6 +283,8 @@ TEST_F(GenChanges, OfDefinesCount) {
   expect_factor(-2, {}, "FACTOR=-2");
   expect_factor(4, {}, "FACTOR=4");
   EXPECT_EQ(num_made(), 3);
+  expect_factor(5, {}, "-DFACTOR=5");
+  expect_factor(6, {}, "-D FACTOR=6");
 }
 
 /// What is defined for the QFunction may have any name: the rest of the text has names of its own.

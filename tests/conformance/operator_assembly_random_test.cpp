@@ -14,7 +14,7 @@ using namespace hg::test;
 constexpr CeedSize num_terms = 4000;
 
 /// The seeds of the operators: each names one for ever.
-constexpr int num_seeds = num_cases(60);
+const int num_seeds = num_cases(60);
 
 class RandomAssembly : public BackendTest {
  protected:

@@ -9,7 +9,7 @@ namespace {
 using namespace hg::test;
 
 /// The seeds of the cases: each names a case for ever.
-constexpr int num_seeds = num_cases(60);
+const int num_seeds = num_cases(60);
 
 class RandomOperator : public BackendTest {
  protected:

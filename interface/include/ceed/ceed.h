@@ -136,7 +136,8 @@ CEED_EXTERN int CeedGetResource(Ceed ceed, const char **resource);
 CEED_EXTERN int CeedIsDeterministic(Ceed ceed, bool *is_deterministic);
 /// Adds `jit_source_root`, a folder in which backends that compile at run time look for included files.
 CEED_EXTERN int CeedAddJitSourceRoot(Ceed ceed, const char *jit_source_root);
-/// Adds `jit_define` ("NAME" or "NAME=VALUE") for code that is compiled at run time.
+/// Adds `jit_define` ("NAME", "NAME=VALUE", or either after "-D") for QFunctions that are compiled at run time. Other
+/// options, which begin with a dash, too, are given to compilers for the host alone.
 CEED_EXTERN int CeedAddJitDefine(Ceed ceed, const char *jit_define);
 /// Adds `rust_source_root`, the folder of a Rust package whose QFunctions are compiled when the program runs. Kept for
 /// backends that do so.
