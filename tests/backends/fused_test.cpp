@@ -235,7 +235,7 @@ class Stored {
 };
 
 /// What a QFunction returns is not lost, wherever its text says it.
-class FailingFunction : public testing::TestWithParam<const char *> {};
+class FailingFunction : public testing::TestWithParam<std::string> {};
 
 TEST_P(FailingFunction, IsAnError) {
   const CeedHandle ceed{open(GetParam())};
@@ -254,12 +254,12 @@ TEST_P(FailingFunction, IsAnError) {
 }
 
 /// What a program defines for its QFunctions reaches them on devices, in each form.
-class DefinesTest : public testing::TestWithParam<std::tuple<const char *, const char *>> {};
+class DefinesTest : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 TEST_P(DefinesTest, ReachQFunctions) {
-  const auto [resource, define] = GetParam();
+  const auto &[resource, define] = GetParam();
   const CeedHandle ceed{open(resource)};
-  ok(CeedAddJitDefine(ceed, define));
+  ok(CeedAddJitDefine(ceed, define.c_str()));
   Stored op(ceed, by_factor, by_factor_loc);
   ok(op.apply(Values(12, 0.5)));
   EXPECT_EQ(op.result(), Values(12, 3.5));
@@ -270,12 +270,11 @@ INSTANTIATE_TEST_SUITE_P(Backends, DefinesTest,
                                           testing::Values("HG_TEST_FACTOR=7", "-DHG_TEST_FACTOR=7")),
                          [](const auto &info) { return "Case" + std::to_string(info.index); });
 INSTANTIATE_TEST_SUITE_P(Backends, FailingFunction,
-                         testing::Values("/cpu/self/ref/serial", "/gpu/emu/ref", "/gpu/emu/gen"), [](const auto &info) {
-                           return std::string(info.param).substr(5, 3) + std::to_string(info.index);
-                         });
+                         testing::Values("/cpu/self/ref/serial", "/gpu/emu/ref", "/gpu/emu/gen"),
+                         [](const auto &info) { return info.param.substr(5, 3) + std::to_string(info.index); });
 
 /// A backend, and points in a cell.
-class PreparedTest : public testing::TestWithParam<std::tuple<const char *, CeedInt>> {
+class PreparedTest : public testing::TestWithParam<std::tuple<std::string, CeedInt>> {
  protected:
   const CeedHandle ceed{open(std::get<0>(GetParam()))};
   const BakeoffOperator op{ceed, true, 3, 3, 4, std::get<1>(GetParam())};
@@ -308,7 +307,7 @@ TEST_P(PreparedTest, HasAllOfItsFirstApplication) {
 INSTANTIATE_TEST_SUITE_P(Backends, PreparedTest,
                          testing::Combine(testing::Values("/gpu/emu/ref", "/gpu/emu/gen"), testing::Values(0, 27)),
                          [](const auto &info) {
-                           const std::string tier = std::string(std::get<0>(info.param)).substr(9);
+                           const std::string tier = std::get<0>(info.param).substr(9);
                            return tier + (std::get<1>(info.param) > 0 ? "Own" : "Quadrature");
                          });
 INSTANTIATE_TEST_SUITE_P(Points, FusedTest, testing::Values(0, 27),

@@ -130,7 +130,7 @@ class Line {
 };
 
 /// A backend, and whether it is at points.
-class UserKernel : public testing::TestWithParam<std::tuple<const char *, bool>> {
+class UserKernel : public testing::TestWithParam<std::tuple<std::string, bool>> {
  protected:
   const CeedHandle ceed{open(std::get<0>(GetParam()))}, host{open("/cpu/self/ref/serial")};
   const bool at_points = std::get<1>(GetParam());
@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, UserKernel,
                          testing::Combine(testing::Values("/gpu/emu/ref", "/gpu/emu/gen:order=shuffled"),
                                           testing::Bool()),
                          [](const auto &info) {
-                           return std::string(std::get<0>(info.param)).substr(9, 3) +
+                           return std::get<0>(info.param).substr(9, 3) +
                                   (std::get<1>(info.param) ? "Own" : "Quadrature");
                          });
 

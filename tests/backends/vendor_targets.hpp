@@ -48,10 +48,11 @@ class VendorTest : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
     try {
-      compiler.emplace(target().vendor);
+      const gpu::VendorLibrary library(target().vendor.compiler_files);
     } catch (const gpu::DeviceError &error) {
       GTEST_SKIP() << target().vendor.name << "'s compiler: " << error.what();
     }
+    compiler.emplace(target().vendor);  // which has all that is called
   }
   static const Target &target() { return targets()[static_cast<std::size_t>(GetParam())]; }
   void compiles(const std::string &name, const std::string &text, std::string *log = nullptr) const {

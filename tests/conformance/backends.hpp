@@ -28,7 +28,7 @@ struct Backend {
   int num_tests = 0;   ///< tests that ran on it
 };
 
-/// The reason of a backend that is not used because it begins with what the environment's HG_TEST_WITHOUT says.
+/// The reason of a backend that is not used because it begins with one of what HG_TEST_WITHOUT lists, by commas.
 inline const std::string left_out = "left out by HG_TEST_WITHOUT";
 
 /// All listed resources, in the order of their names. Each is first opened in a process of its own, so that a backend

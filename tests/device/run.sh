@@ -47,6 +47,8 @@ mkdir -p "$out"
 rm -f "$out"/{bandwidth,bps,points}*.json
 build=build/device/build
 export CEED_CACHE_DIR=$PWD/build/device/compiled CEED_JIT_ERROR_ON_FAILURE=1
+# Of the random cases, each of which is a kernel that is compiled, one in five.
+export HG_CASES=${HG_CASES:-20}
 # The vendor's compiler where it is installed beside the system's libraries.
 export LD_LIBRARY_PATH=${LD_LIBRARY_PATH:+$LD_LIBRARY_PATH:}/usr/local/cuda/lib64:/opt/rocm/lib
 
@@ -59,8 +61,9 @@ step "Build in $build"
 where=()
 [ ! -d "$prefix" ] || where=(-DCMAKE_PREFIX_PATH="$PWD/$prefix/usr;$PWD/$prefix/usr/lib/$(uname -m)-linux-gnu"
                              -DCMAKE_INCLUDE_PATH="$PWD/$prefix/usr/include")
-cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DHONEYGUIDE_MECHANICS=OFF "${where[@]}" \
-  > "$out/configure.log" 2>&1 || { tail -20 "$out/configure.log"; exit 1; }
+# Any compiler may be there, with warnings of its own.
+cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DHONEYGUIDE_MECHANICS=OFF -DHONEYGUIDE_WERROR=OFF \
+  "${where[@]}" > "$out/configure.log" 2>&1 || { tail -20 "$out/configure.log"; exit 1; }
 within 80 cmake --build "$build" -j "$jobs" --target ceed_$backend ceed-info ceed-conformance bps-kernel device-bandwidth \
   > "$out/build.log" 2>&1 || { tail -30 "$out/build.log"; exit 1; }
 
@@ -119,7 +122,7 @@ for resource in "${resources[@]}"; do
   step "Bake-off problems: $resource"
   within 60 "$build/bin/bps-kernel" --ceed "$resource" --problem all --degree "$degrees" --dofs "$dofs" --reps 5 \
     --cg-iterations 1 --json "$out/bps$name.json" > "$out/bps$name.log" 2>&1 || { tail -5 "$out/bps$name.log"; status=1; }
-  within 90 "$build/bin/bps-kernel" --ceed "$resource" --problem bp1,bp2,bp3,bp4 --degree 1-3 --points 8,27 \
+  within 90 "$build/bin/bps-kernel" --ceed "$resource" --problem bp1,bp2,bp3,bp4 --degree 1-3 --points 8,27,64 \
     --dofs "$points_dofs" --reps 5 --cg-iterations 1 --json "$out/points$name.json" > "$out/points$name.log" 2>&1 ||
     { tail -5 "$out/points$name.log"; status=1; }
 done

@@ -416,10 +416,11 @@ CEED_EXTERN int CeedOperatorSetData(CeedOperator op, void *data);
 /// Counts one reference more.
 CEED_EXTERN int CeedOperatorReference(CeedOperator op);
 
-/// Compiles, and brings to a device, what the first application would compile and bring there; of a composite, for all its
-/// parts. Nothing is done twice, and an operator that is not prepared is so by its first application. Errors: those of
-/// CeedOperatorCheckReady(), which is called where it was not (CEED_ERROR_INCOMPLETE, CEED_ERROR_DIMENSION,
-/// CEED_ERROR_INCOMPATIBLE); where it cannot be compiled, those of the backend.
+/// Compiles, and brings to a device, what the first application would compile and bring there; of a composite, for all
+/// its parts. Nothing is done twice, and an operator that is not prepared is so by its first application; assemblies
+/// are prepared by the first of their kind. Errors: those of CeedOperatorCheckReady(), which is called where it was not
+/// (CEED_ERROR_INCOMPLETE, CEED_ERROR_DIMENSION, CEED_ERROR_INCOMPATIBLE); where it cannot be compiled, those of the
+/// backend.
 CEED_EXTERN int CeedOperatorPrepare(CeedOperator op);
 
 /// Bytes that an operator works with, beside its active input and output. An array that several fields or parts share
