@@ -193,7 +193,7 @@ class Budgets {
 /// Operators and assemblies as one kernel, with what the compiler says of them. What has no budget is not one kernel.
 class BudgetTest : public VendorTest {
  protected:
-  void compile(CeedOperator op, gpu::Purpose purpose, const std::string &name, int most_spilled) {
+  void compile(CeedOperator op, gpu::Purpose purpose, const std::string &name, bool may_spill) {
     const std::string row = std::string(target().name) + ',' + name;
     const gpu::OperatorText text = text_of(op, target(), purpose);
     if (text.text.empty()) {
@@ -217,7 +217,7 @@ class BudgetTest : public VendorTest {
                 name.c_str(), text.num_blocks, text.num_threads, needs.shared_kb, *registers, needs.spilled,
                 took.count());
     budgets_.expect(row, needs);
-    EXPECT_LE(needs.spilled, most_spilled) << name;
+    EXPECT_TRUE(may_spill || needs.spilled == 0) << name << " spills " << needs.spilled << " bytes";
   }
 
   const test::CeedHandle ceed{test::open("/cpu/self/ref")};
@@ -237,10 +237,7 @@ TEST_P(BudgetTest, CompilesTheBakeoffProblems) {
         const CeedInt num_comp = number % 2 == 0 ? 3 : 1, Q = number > 4 ? p + 1 : p + 2;
         const test::BakeoffOperator op(ceed, number > 2, num_comp, p + 1, Q, per_cell);
         compile(op, gpu::Purpose::apply,
-                std::string(problem) + (per_cell > 0 ? " at points" : "") + " p=" + std::to_string(p),
-                p <= 4         ? 0
-                : per_cell > 0 ? 16
-                               : 168);
+                std::string(problem) + (per_cell > 0 ? " at points" : "") + " p=" + std::to_string(p), p > 4);
       }
     }
   }
@@ -258,7 +255,7 @@ TEST_P(BudgetTest, CompilesAssemblies) {
           compile(op, purpose,
                   std::string(called) + (is_poisson ? " of BP4" : " of BP1") + (per_cell > 0 ? " at points" : "") +
                       " p=" + std::to_string(p),
-                  0);
+                  false);
         }
       }
     }
