@@ -72,9 +72,7 @@ std::vector<std::string> options_for(const host::Kernels &kernels, const Source 
   if (isa == "avx2") options.emplace_back("-mno-avx512f");
   if (isa == "avx512") options.emplace_back("-mprefer-vector-width=512");
   for (const auto &root : source.roots) options.push_back("-I" + root.string());
-  for (const auto &define : source.defines) {
-    if (define.starts_with('-') && !define.starts_with("-D")) options.push_back(define);
-  }
+  for (auto &option : jit::lines_of(source.defines).options) options.push_back(std::move(option));
   for (auto &flag : jit::flags_of_user()) options.push_back(std::move(flag));
   return options;
 }

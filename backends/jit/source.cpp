@@ -104,7 +104,11 @@ Defines lines_of(const std::vector<std::string> &defines) {
   Defines lines;
   for (std::string define : defines) {
     if (define.starts_with("-D")) define.erase(0, std::min(define.find_first_not_of(' ', 2), define.size()));
-    if (define.empty() || define[0] == '-') continue;
+    if (define.empty()) continue;
+    if (define[0] == '-') {
+      lines.options.push_back(std::move(define));
+      continue;
+    }
     const auto equals = define.find('=');
     const bool has_value = equals != std::string::npos;
     lines.begin += "#define " + define.substr(0, equals) + ' ' + (has_value ? define.substr(equals + 1) : "1") + '\n';

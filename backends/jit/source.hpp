@@ -33,9 +33,10 @@ Include included_by(std::string_view line);
 std::string_view directive(std::string_view line);
 
 /// Lines that define what is defined for a QFunction ("NAME", "NAME=VALUE", "-DNAME=VALUE"), and lines that end that:
-/// our own text does not see it. What else begins with a dash is an option for a compiler, and left out.
+/// our own text does not see it. What else begins with a dash is an option for a compiler on the host.
 struct Defines {
   std::string begin, end;
+  std::vector<std::string> options;
 };
 Defines lines_of(const std::vector<std::string> &defines);
 

@@ -256,7 +256,7 @@ std::vector<bool> used_entries(const Case &c) {
 }
 
 TEST_P(CompositeTest, CountsTheSubOperatorsThatReadAnEntry) {
-  for (int seed = 0; seed < num_cases(12); seed++) {
+  for (int seed = 0; seed < 12; seed++) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(4500 + static_cast<std::uint64_t>(seed));
     const std::vector<Case> cases = parts(random, false, 4);
