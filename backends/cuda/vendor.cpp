@@ -80,6 +80,21 @@ std::vector<std::string> options(const gpu::DriverCalls &calls, int device) {
   return {"--gpu-architecture=sm_" + std::to_string(major) + std::to_string(minor), "--std=c++17", "-default-device"};
 }
 
+/// CUDA_KERNEL_NODE_PARAMS; newer drivers read two more handles, which are 0.
+gpu::GraphNode graph_node(const gpu::GraphKernel &kernel) {
+  struct {
+    void *function;
+    unsigned grid[3], block[3], shared_bytes;
+    void **arguments, **extra;
+  } node{.function = kernel.function,
+         .grid = {kernel.num_blocks, 1, 1},
+         .block = {kernel.num_threads, 1, 1},
+         .shared_bytes = kernel.shared_bytes,
+         .arguments = kernel.arguments,
+         .extra = nullptr};
+  return gpu::GraphNode(node);
+}
+
 }  // namespace
 
 const gpu::Vendor vendor{
@@ -89,6 +104,7 @@ const gpu::Vendor vendor{
     .driver_names = driver_names,
     .compiler_names = compiler_names,
     .graph_names = graph_names,
+    .graph_node = graph_node,
     .user_kernels = gpu::UserKernels::cuda,
     .attributes = {.max_threads = 1, .shared_per_block = 97, .warp_size = 10, .num_processors = 16},
     .error = error,

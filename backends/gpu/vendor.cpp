@@ -316,10 +316,11 @@ void VendorDriver::launch_user(void *kernel, void *context, CeedInt Q, const Use
 }
 
 /// One graph without dependencies. It is made anew where other kernels are called; where only their jobs have changed,
-/// those of its nodes are exchanged.
+/// those of its nodes are exchanged. Kernels that the vendor's library takes into no graph are launched one by one.
 class VendorGraph : public Calls {
  public:
-  explicit VendorGraph(const VendorDriver &driver)
+  /// Throws DeviceError where the library, older than the compiler, has no graphs.
+  explicit VendorGraph(VendorDriver &driver)
       : driver_(driver), calls_(driver.library_.calls<GraphCalls>(driver.vendor_.graph_names)) {}
   VendorGraph(const VendorGraph &) = delete;
   VendorGraph &operator=(const VendorGraph &) = delete;
@@ -332,11 +333,15 @@ class VendorGraph : public Calls {
     for (const Call &call : calls) driver_.allow(call.kernel, call.launch);
     const auto is_of_kernel = [](const Call &a, const Call &b) { return a.kernel.id == b.kernel.id; };
     if (!std::equal(calls.begin(), calls.end(), calls_made_.begin(), calls_made_.end(), is_of_kernel)) make(calls);
+    if (executable_ == nullptr) {
+      for (const Call &call : calls) driver_.make(call);
+      return;
+    }
     for (std::size_t i = 0; i < calls.size(); i++) {
       const Call &now = calls[i], &then = calls_made_[i];
       if (now.job == then.job && now.launch == then.launch) continue;
-      with_kernel(now, [&](const GraphKernel &kernel) {
-        driver_.check(calls_.change(executable_, nodes_[i], &kernel), "a graph's kernel cannot be changed");
+      with_node(now, [&](const GraphNode &node) {
+        driver_.check(calls_.change(executable_, nodes_[i], &node), "a graph's kernel cannot be changed");
       });
       calls_made_[i] = now;
     }
@@ -351,23 +356,25 @@ class VendorGraph : public Calls {
  private:
   /// The arguments are copied by who gets them.
   template <typename F>
-  static void with_kernel(const Call &call, F &&f) {
+  void with_node(const Call &call, F &&f) const {
     void *arguments[] = {const_cast<std::byte *>(call.job.data())};
-    f(GraphKernel{.function = call.kernel.handle,
-                  .grid = {static_cast<unsigned>(call.launch.num_blocks), 1, 1},
-                  .block = {static_cast<unsigned>(call.launch.num_threads), 1, 1},
-                  .shared_bytes = static_cast<unsigned>(call.launch.shared_bytes),
-                  .arguments = arguments});
+    f(driver_.vendor_.graph_node({.function = call.kernel.handle,
+                                  .num_blocks = static_cast<unsigned>(call.launch.num_blocks),
+                                  .num_threads = static_cast<unsigned>(call.launch.num_threads),
+                                  .shared_bytes = static_cast<unsigned>(call.launch.shared_bytes),
+                                  .arguments = arguments}));
   }
+  /// There is no executable where the vendor's library refuses it.
   void make(std::span<const Call> calls) {
     destroy();
-    driver_.check(calls_.create(&graph_, 0), "there is no graph");
+    bool is_taken = calls_.create(&graph_, 0) == 0;
     for (const Call &call : calls) {
-      with_kernel(call, [&](const GraphKernel &kernel) {
-        driver_.check(calls_.add(&nodes_.emplace_back(), graph_, nullptr, 0, &kernel), "a graph takes no kernel");
+      if (!is_taken) break;
+      with_node(call, [&](const GraphNode &node) {
+        is_taken = calls_.add(&nodes_.emplace_back(), graph_, nullptr, 0, &node) == 0;
       });
     }
-    driver_.check(calls_.make(&executable_, graph_, 0), "a graph cannot be made");
+    if (is_taken && calls_.make(&executable_, graph_, 0) != 0) executable_ = nullptr;
     calls_made_.assign(calls.begin(), calls.end());
   }
   void destroy() {
@@ -378,7 +385,7 @@ class VendorGraph : public Calls {
     calls_made_.clear();
   }
 
-  const VendorDriver &driver_;
+  VendorDriver &driver_;
   GraphCalls calls_;
   void *graph_ = nullptr, *executable_ = nullptr;
   std::vector<void *> nodes_;
@@ -386,11 +393,10 @@ class VendorGraph : public Calls {
 };
 
 std::unique_ptr<Calls> VendorDriver::make_calls() {
-  if (vendor_.graph_names.empty()) return Driver::make_calls();
   try {
     return std::make_unique<VendorGraph>(*this);
   } catch (const DeviceError &) {
-    return Driver::make_calls();  // a driver that is older than the compiler may have no graphs
+    return Driver::make_calls();
   }
 }
 

@@ -6,9 +6,11 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "driver.hpp"
@@ -59,20 +61,31 @@ struct DriverCalls {
   int (*launch)(void *function, unsigned grid_x, unsigned grid_y, unsigned grid_z, unsigned block_x, unsigned block_y,
                 unsigned block_z, unsigned shared_bytes, void *stream, void **arguments, void **extra);
 };
-/// A kernel in a graph, as CUDA has it (newer versions read two more handles, which are 0).
+/// A kernel in a graph, in one direction.
 struct GraphKernel {
-  void *function = nullptr;
-  unsigned grid[3] = {1, 1, 1}, block[3] = {1, 1, 1}, shared_bytes = 0;
-  void **arguments = nullptr, **extra = nullptr;
-  void *newer[2] = {};
+  void *function;
+  unsigned num_blocks, num_threads, shared_bytes;
+  void **arguments;
+};
+/// The same as a vendor's calls read it: the bytes of its own struct, and 0.
+class GraphNode {
+ public:
+  template <typename Struct>
+  explicit GraphNode(const Struct &kernel) {
+    static_assert(std::is_trivially_copyable_v<Struct> && sizeof(Struct) <= sizeof bytes_);
+    std::memcpy(bytes_, &kernel, sizeof kernel);
+  }
+
+ private:
+  alignas(void *) std::byte bytes_[96] = {};
 };
 /// Graphs, which run what does not depend on each other at once, and are launched as one. 0 is success.
 struct GraphCalls {
   int (*create)(void **graph, unsigned flags);
   int (*add)(void **node, void *graph, void *const *dependencies, std::size_t num_dependencies,
-             const GraphKernel *kernel);
+             const GraphNode *kernel);
   int (*make)(void **executable, void *graph, unsigned long long flags);
-  int (*change)(void *executable, void *node, const GraphKernel *kernel);
+  int (*change)(void *executable, void *node, const GraphNode *kernel);
   int (*launch)(void *executable, void *stream);
   int (*destroy_executable)(void *executable);
   int (*destroy)(void *graph);
@@ -96,7 +109,8 @@ struct Vendor {
   const char *name;
   std::span<const char *const> driver_files, compiler_files;  ///< of which the first that is there is taken
   std::span<const char *const> driver_names, compiler_names;  ///< of DriverCalls and CompilerCalls
-  std::span<const char *const> graph_names;                   ///< of GraphCalls; empty: there are none
+  std::span<const char *const> graph_names;                   ///< of GraphCalls
+  GraphNode (*graph_node)(const GraphKernel &kernel);
   UserKernels user_kernels;
   struct {
     int max_threads, shared_per_block, warp_size, num_processors;

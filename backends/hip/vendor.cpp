@@ -32,6 +32,13 @@ constexpr const char *driver_names[] = {"hipInit",
 constexpr const char *compiler_names[] = {"hiprtcVersion",           "hiprtcCreateProgram",  "hiprtcCompileProgram",
                                           "hiprtcGetProgramLogSize", "hiprtcGetProgramLog",  "hiprtcGetCodeSize",
                                           "hiprtcGetCode",           "hiprtcDestroyProgram", "hiprtcGetErrorString"};
+constexpr const char *graph_names[] = {"hipGraphCreate",
+                                       "hipGraphAddKernelNode",
+                                       "hipGraphInstantiateWithFlags",
+                                       "hipGraphExecKernelNodeSetParams",
+                                       "hipGraphLaunch",
+                                       "hipGraphExecDestroy",
+                                       "hipGraphDestroy"};
 
 std::string error(const gpu::VendorLibrary &driver, int code) {
   const auto text_of = reinterpret_cast<const char *(*)(int)>(driver.symbol("hipGetErrorString"));
@@ -60,6 +67,24 @@ std::vector<std::string> options(const gpu::DriverCalls &, int) {
   return {"-std=c++17", "-O3"};
 }
 
+/// hipKernelNodeParams. Graphs of ROCm 5.2 refuse functions of modules (ROCm/hip issue 2450), newer ones take them.
+gpu::GraphNode graph_node(const gpu::GraphKernel &kernel) {
+  struct {
+    unsigned block[3];
+    void **extra;
+    void *function;
+    unsigned grid[3];
+    void **arguments;
+    unsigned shared_bytes;
+  } node{.block = {kernel.num_threads, 1, 1},
+         .extra = nullptr,
+         .function = kernel.function,
+         .grid = {kernel.num_blocks, 1, 1},
+         .arguments = kernel.arguments,
+         .shared_bytes = kernel.shared_bytes};
+  return gpu::GraphNode(node);
+}
+
 }  // namespace
 
 const gpu::Vendor vendor{
@@ -68,7 +93,8 @@ const gpu::Vendor vendor{
     .compiler_files = compiler_files,
     .driver_names = driver_names,
     .compiler_names = compiler_names,
-    .graph_names = {},  // its nodes are for functions of the program, not of modules
+    .graph_names = graph_names,
+    .graph_node = graph_node,
     .user_kernels = gpu::UserKernels::hip,
     .attributes = {.max_threads = 56, .shared_per_block = 74, .warp_size = 87, .num_processors = 63},
     .error = error,

@@ -1,13 +1,13 @@
 /// @file
-/// What the fake of CUDA's libraries is told, and tells.
+/// What the fake of CUDA's and HIP's libraries is told, and tells.
 #pragma once
 
 #include <utility>
 #include <vector>
 
 /// One driver with two devices, whose memory is the host's and whose kernels do nothing, and one compiler.
-struct FakeCuda {
-  int current = none;              ///< the device of the current context, which is its number + 1 as a pointer
+struct FakeVendors {
+  int current = none;              ///< device; CUDA's context is its number + 1 as a pointer
   int num_retained = 0;            ///< contexts that were asked for
   int num_compiled = 0;            ///< texts
   int num_launched = 0;            ///< kernels, beside those of graphs
@@ -19,11 +19,12 @@ struct FakeCuda {
   void *recorded = nullptr;        ///< the stream of the last event
   /// Streams that wait for others.
   std::vector<std::pair<void *, void *>> waits;
-  bool reuses_functions = false;   ///< a function of a new module has the handle of an old one's
-  int num_functions = 0;           ///< that were asked for
+  bool reuses_functions = false;            ///< a function of a new module has the handle of an old one's
+  int num_functions = 0;                    ///< that were asked for
   int num_graphs = 0, num_executables = 0;  ///< that are there
   int num_made = 0, num_changed = 0;        ///< executables that were made, nodes that were changed
-  int refused_graphs = 0, refused_changes = 0;  ///< how many times that is refused from now on
+  /// How many times a kernel of a graph, a graph, a change are refused from now on.
+  int refused_nodes = 0, refused_graphs = 0, refused_changes = 0;
   /// A kernel that a graph was launched with.
   struct Called {
     void *function = nullptr;
@@ -47,4 +48,4 @@ struct FakeCuda {
   static constexpr int none = -1;
 };
 /// The library that is linked to a test and the one that is loaded by it are the same.
-extern FakeCuda fake_cuda;
+extern FakeVendors fake;
