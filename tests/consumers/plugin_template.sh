@@ -28,7 +28,8 @@ some='*Restriction*:*OperatorTest*'
 "$info" --plugin template/first.so --check /cpu/self/first --cases "$some" > log 2>&1 || fail "first.so:" log
 "$info" --plugin template/backend.so --check /cpu/self/template > log 2>&1 || fail "backend.so:" log
 expect log " 0 failed, 0 crashed, 0 skipped"
-CEED_PLUGIN_PATH=$PWD/template "$info" --support --cases "$some" > log 2>&1 || fail "--support:" log
+CEED_PLUGIN_PATH=$PWD/template "$info" --support --ceed /cpu/self/template --ceed /cpu/self/first --cases "$some" \
+  > log 2>&1 || fail "--support:" log
 expect log "/cpu/self/template"
 expect log "/cpu/self/first"
 
