@@ -66,8 +66,9 @@ class Library : public gpu::Module {
     bind([] { return &running->state; });
   }
   gpu::Kernel kernel(const char *name) override {
-    functions_.push_back({.call = reinterpret_cast<void (*)(const void *)>(symbol(name)), .name = name});
-    return {&functions_.back()};
+    functions_.push_back(
+        {.call = reinterpret_cast<void (*)(const void *)>(symbol(name)), .name = std::string(name) + "' of '" + name_});
+    return {.handle = &functions_.back(), .name = name_.c_str()};
   }
 
  private:
@@ -147,9 +148,16 @@ Options parse(const std::string &text) {
       options.warp_size = 32;
     } else if (word == "warp=64") {
       options.warp_size = 64;
+    } else if (word == "shared=64") {
+      options.shared_kib = 64;
+    } else if (word == "shared=163") {
+      options.shared_kib = 163;
+    } else if (word == "shared=227") {
+      options.shared_kib = 227;
     } else if (!gpu::parse_option(word, options.device)) {
       throw DeviceError("the emulator has no option '" + word +
-                        "'; expected order=forward, order=backward, order=shuffled, warp=32, warp=64, " +
+                        "'; expected order=forward, order=backward, order=shuffled, warp=32, warp=64, "
+                        "shared=64, shared=163, shared=227, " +
                         gpu::expected_options);
     }
   }
@@ -162,7 +170,7 @@ Emulator::Emulator(const Options &options)
                   .number = std::max(options.device.device_id, 0),
                   .warp_size = options.warp_size,
                   .max_threads = 1024,
-                  .shared_per_block = 64 << 10,
+                  .shared_per_block = static_cast<std::size_t>(options.shared_kib) << 10,
                   .num_processors = 2} {}
 
 // What nobody has written is no number.

@@ -17,6 +17,7 @@ enum class Order { forward, backward, shuffled };
 struct Options {
   Order order = Order::forward;  ///< of calls that do not depend on each other, blocks, and threads between two barriers
   int warp_size = 32;
+  int shared_kib = 64;  ///< KiB of a block: those of AMD's devices (64), of sm_80 (163) and of sm_90 (227)
   gpu::Options device;  ///< as devices have them
 };
 /// "order=shuffled,warp=64,device_id=1". Throws gpu::DeviceError, with what was expected.

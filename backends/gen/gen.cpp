@@ -39,9 +39,15 @@ int destroy(CeedOperator op) {
   });
 }
 
-int prepare(CeedOperator op, const CeedProgram *program) {
+int prepare(CeedOperator op, const CeedProgram *program, CeedOperatorUse use) {
   return host::wall(CeedOperatorReturnCeed(op), [&] {
-    if (Operator *own = operator_of(op); own != nullptr) own->prepare(*program);
+    Operator *own = operator_of(op);
+    if (own == nullptr) return;
+    if (use == CEED_USE_APPLY) {
+      own->prepare(*program);
+    } else {
+      own->prepare_assembly(*program);
+    }
   });
 }
 

@@ -36,7 +36,8 @@ struct Properties {
 /// A function on the device; valid as long as its module.
 struct Kernel {
   void *handle = nullptr;
-  std::uint64_t id = 0;  ///< no other one's in this process, as a handle may be
+  std::uint64_t id = 0;   ///< no other one's in this process, as a handle may be
+  const char *name = "";  ///< for messages: that of its text
 };
 
 /// A loaded text, unloaded in the end.
@@ -84,13 +85,14 @@ class Calls {
 };
 
 /// One device. All work is done in one order, that of the calls (a stream); only copies to the host wait for it.
-/// Functions throw DeviceError, with what the vendor's library says, and allocate() std::bad_alloc.
+/// Functions throw DeviceError, with what the vendor's library says.
 class Driver {
  public:
   virtual ~Driver() = default;
   virtual const Properties &properties() const = 0;
 
-  /// Memory on the device, aligned to 256 bytes, without values; never NULL.
+  /// Memory on the device, aligned to 256 bytes, without values; never NULL. Throws std::bad_alloc where it is the
+  /// host's.
   virtual void *allocate(std::size_t bytes) = 0;
   virtual void free(void *memory) noexcept = 0;
   void copy_to_device(void *to, const void *from, std::size_t bytes) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "../host/access.hpp"
+#include "../jit/compiler.hpp"
 #include "../jit/flatten.hpp"
 #include "../jit/source.hpp"
 #include "texts.hpp"
@@ -129,8 +130,18 @@ bool may_fail(const std::string &text, const std::string &function) {
 }  // namespace
 
 FunctionText::FunctionText(CeedQFunction qf) {
-  const jit::Source source = jit::Source::of(qf);
-  const std::string function = jit::flatten(source);
+  jit::Source source;
+  std::string function;
+  try {
+    source = jit::Source::of(qf);
+    function = jit::flatten(source);
+  } catch (const jit::NoSource &) {
+    throw;
+  } catch (const jit::NotCompiled &reason) {
+    const char *qf_name = nullptr;
+    chk(CeedQFunctionGetName(qf, &qf_name));
+    throw jit::NotCompiled("the QFunction '" + std::string(qf_name) + "' is not compiled: " + reason.what());
+  }
   const jit::Defines defines = jit::lines_of(source.defines);
   CeedInt vector_length = 1;
   chk(CeedQFunctionGetVectorLength(qf, &vector_length));

@@ -84,7 +84,8 @@ void apply_staged(CeedOperator op, const CeedProgram &program, CeedVector in, Ce
   staged_of(op, program).apply_add(program, *function, in, out, mode);
 }
 
-int prepare_in_stages(CeedOperator op, const CeedProgram *program) {
+int prepare_in_stages(CeedOperator op, const CeedProgram *program, CeedOperatorUse use) {
+  if (use != CEED_USE_APPLY) return CEED_ERROR_SUCCESS;  // the reference assembles it, on the host
   return wall(CeedOperatorReturnCeed(op), [&] {
     prepare_device(op, *program);
     prepare_staged(op, *program);
@@ -123,10 +124,28 @@ FusedOperator *fused_of(CeedOperator op, const CeedProgram &program, Purpose pur
   return fused.emplace(purpose, std::move(made)).first->second.get();
 }
 
-int prepare_fused(CeedOperator op, const CeedProgram *program) {
+Purpose purpose_of(CeedOperatorUse use) {
+  switch (use) {
+    case CEED_USE_ASSEMBLE_QFUNCTION:
+      return Purpose::qfunction;
+    case CEED_USE_ASSEMBLE:
+      return Purpose::matrix;
+    case CEED_USE_ASSEMBLE_DIAGONAL:
+      return Purpose::diagonal;
+    case CEED_USE_ASSEMBLE_POINT_BLOCKS:
+      return Purpose::point_blocks;
+    case CEED_USE_APPLY:
+      break;
+  }
+  return Purpose::apply;
+}
+
+int prepare_fused(CeedOperator op, const CeedProgram *program, CeedOperatorUse use) {
   return wall(CeedOperatorReturnCeed(op), [&] {
+    FusedOperator *fused = fused_of(op, *program, purpose_of(use));
+    if (fused == nullptr && use != CEED_USE_APPLY) return;  // as above
     prepare_device(op, *program);
-    if (FusedOperator *fused = fused_of(op, *program, Purpose::apply)) {
+    if (fused != nullptr) {
       fused->prepare(*program);
     } else {
       prepare_staged(op, *program);

@@ -10,9 +10,11 @@
 #include <map>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <system_error>
 
 #include "../jit/cache.hpp"
+#include "../jit/tell.hpp"
 #include "texts.hpp"
 
 namespace hg::gpu {
@@ -53,49 +55,52 @@ VendorCompiler::VendorCompiler(const Vendor &vendor)
 }
 
 std::string VendorCompiler::compile(const std::string &name, const std::string &text,
-                                    const std::vector<std::string> &options, std::string *log) const {
+                                    const std::vector<std::string> &options, std::string *log, bool is_usable) const {
   std::string all = std::string(vendor_.name) + ' ' + version_ + '\n';
   for (const auto &option : options) all += option + '\n';
+  std::optional<jit::Cache> cache;
   try {
-    return jit::Cache().code(all + jit::text_of(texts, "vendors.hpp") + text,
-                             [&] { return compile_now(name, text, options, log); });
-  } catch (const jit::NotCompiled &) {
-    return compile_now(name, text, options, log);  // nothing can be kept
+    cache.emplace();
+  } catch (const jit::NotCompiled &reason) {
+    jit::tell_once("no cache", std::string("what is compiled for devices is not kept: ") + reason.what());
+    return compile_now(name, text, options, log);
   }
+  return cache->code(
+      all + jit::text_of(texts, "vendors.hpp") + text, [&] { return compile_now(name, text, options, log); },
+      is_usable);
 }
 
 std::string VendorCompiler::compile_now(const std::string &name, const std::string &text,
                                         const std::vector<std::string> &options, std::string *log) const {
-  void *program = nullptr;
   const std::string whole = jit::text_of(texts, "vendors.hpp") + text;
   const auto check = [&](int code, const std::string &what) {
-    if (code == 0) return;
-    if (program != nullptr) calls_.destroy(&program);
-    throw DeviceError(what + ": " + calls_.error(code));
+    if (code != 0) throw DeviceError(what + ": " + calls_.error(code));
   };
-  check(calls_.create(&program, whole.c_str(), (name + ".cu").c_str(), 0, nullptr, nullptr), "'" + name + "'");
+  void *created = nullptr;
+  check(calls_.create(&created, whole.c_str(), (name + ".cu").c_str(), 0, nullptr, nullptr), "'" + name + "'");
+  const auto destroy = [this](void *program) { calls_.destroy(&program); };
+  const std::unique_ptr<void, decltype(destroy)> program(created, destroy);
   std::vector<const char *> words;
   for (const auto &option : options) words.push_back(option.c_str());
-  const int code = calls_.compile(program, static_cast<int>(words.size()), words.data());
+  const int code = calls_.compile(program.get(), static_cast<int>(words.size()), words.data());
   std::size_t bytes = 0;
   std::string said;
-  if (calls_.log_size(program, &bytes) == 0 && bytes > 1) {
+  if (calls_.log_size(program.get(), &bytes) == 0 && bytes > 1) {
     said.resize(bytes);
-    calls_.log(program, said.data());
+    calls_.log(program.get(), said.data());
     said.resize(std::strlen(said.c_str()));
   }
   if (log != nullptr) *log = said;
   check(code, "'" + name + "' is not compiled: the compiler refuses it:\n" + said);
-  check(calls_.code_size(program, &bytes), "'" + name + "'");
+  check(calls_.code_size(program.get(), &bytes), "'" + name + "'");
   std::string compiled(bytes, '\0');
-  check(calls_.code(program, compiled.data()), "'" + name + "'");
-  calls_.destroy(&program);
+  check(calls_.code(program.get(), compiled.data()), "'" + name + "'");
   return compiled;
 }
 
 namespace {
 
-void check_call(const Vendor &vendor, const VendorLibrary &library, int code, const char *what) {
+void check_call(const Vendor &vendor, const VendorLibrary &library, int code, const std::string &what) {
   if (code != 0) throw DeviceError(std::string(vendor.name) + ": " + what + ": " + vendor.error(library, code));
 }
 
@@ -131,7 +136,14 @@ class VendorDriver : public Driver {
   friend class VendorGraph;
   void to_device(void *to, const void *from, std::size_t bytes) override;
   void to_host(void *to, const void *from, std::size_t bytes) override;
-  void check(int code, const char *what) const { check_call(vendor_, library_, code, what); }
+  /// What failed is told by `what`: a text, or a function that makes one, since most calls are right.
+  void check(int code, const char *what) const {
+    if (code != 0) check_call(vendor_, library_, code, what);
+  }
+  template <typename F>
+  void check(int code, const F &what) const {
+    if (code != 0) check_call(vendor_, library_, code, what());
+  }
   void make_current() const { check(vendor_.make_current(library_, handle_), "the device cannot be used"); }
   /// Throws where a launch is beyond what the vendor's calls take.
   void allow(Kernel kernel, const Launch &launch) const;
@@ -171,10 +183,10 @@ class VendorModule : public Module {
   }
   Kernel kernel(const char *name) override {
     static std::atomic<std::uint64_t> count = 0;
-    Kernel kernel{.handle = nullptr, .id = ++count};
+    Kernel kernel{.handle = nullptr, .id = ++count, .name = name_.c_str()};
     driver_.make_current();
     driver_.check(driver_.calls_.function(&kernel.handle, module_, name),
-                  ("'" + name_ + "' has no kernel '" + name + "'").c_str());
+                  [&] { return "'" + name_ + "' has no kernel '" + name + "'"; });
     return kernel;
   }
 
@@ -224,8 +236,10 @@ void *VendorDriver::allocate(std::size_t bytes) {
   make_current();
   const int code = calls_.allocate(&memory, bytes == 0 ? 1 : bytes);
   constexpr int out_of_memory = 2;  // in both
-  if (code == out_of_memory) throw std::bad_alloc();
-  check(code, "memory cannot be allocated");
+  if (code == out_of_memory) {
+    throw DeviceError("Out of memory: '" + properties_.name + "' has no room for " + std::to_string(bytes) + " bytes");
+  }
+  check(code, [&] { return std::to_string(bytes) + " bytes cannot be allocated"; });
   return memory;
 }
 
@@ -235,27 +249,30 @@ void VendorDriver::free(void *memory) noexcept {
 }
 
 void VendorDriver::to_device(void *to, const void *from, std::size_t bytes) {
+  const auto what = [&] { return "a copy of " + std::to_string(bytes) + " bytes to the device failed"; };
   make_current();
-  check(calls_.to_device(to, from, bytes, stream_), "a copy to the device failed");
-  check(calls_.synchronize(stream_), "a copy to the device failed");  // `from` may change when this returns
+  check(calls_.to_device(to, from, bytes, stream_), what);
+  check(calls_.synchronize(stream_), what);  // `from` may change when this returns
 }
 
 void VendorDriver::to_host(void *to, const void *from, std::size_t bytes) {
   make_current();
-  check(calls_.to_host(to, from, bytes, stream_), "a copy to the host failed");
+  check(calls_.to_host(to, from, bytes, stream_),
+        [&] { return "a copy of " + std::to_string(bytes) + " bytes to the host failed"; });
   check(calls_.synchronize(stream_), "work on the device failed");
 }
 
 void VendorDriver::copy(void *to, const void *from, std::size_t bytes) {
   if (bytes == 0) return;
   make_current();
-  check(calls_.copy(to, from, bytes, stream_), "a copy on the device failed");
+  check(calls_.copy(to, from, bytes, stream_),
+        [&] { return "a copy of " + std::to_string(bytes) + " bytes on the device failed"; });
 }
 
 void VendorDriver::clear(void *memory, std::size_t bytes) {
   if (bytes == 0) return;
   make_current();
-  check(calls_.clear(memory, 0, bytes, stream_), "memory cannot be cleared");
+  check(calls_.clear(memory, 0, bytes, stream_), [&] { return std::to_string(bytes) + " bytes cannot be cleared"; });
 }
 
 void VendorDriver::set_stream(void *stream) {
@@ -280,19 +297,23 @@ std::unique_ptr<Module> VendorDriver::compile(const std::string &name, const std
   try {
     return std::make_unique<VendorModule>(*this, name, compiler_.compile(name, for_device, options_));
   } catch (const NotLoaded &) {
-    return std::make_unique<VendorModule>(*this, name, compiler_.compile_now(name, for_device, options_));
+    return std::make_unique<VendorModule>(*this, name, compiler_.compile(name, for_device, options_, nullptr, false));
   }
 }
 
 void VendorDriver::allow(Kernel kernel, const Launch &launch) const {
   if (launch.num_blocks > most_blocks) {
-    throw DeviceError(std::string(vendor_.name) + ": a kernel of " + std::to_string(launch.num_blocks) +
-                      " blocks; at most " + std::to_string(most_blocks) + " are possible");
+    throw DeviceError(std::string(vendor_.name) + ": '" + kernel.name + "' is launched with " +
+                      std::to_string(launch.num_blocks) + " blocks; expected " + std::to_string(most_blocks) +
+                      " at most");
   }
   make_current();
   constexpr std::size_t usual_shared = 48 << 10;
   if (launch.shared_bytes > usual_shared) {
-    check(vendor_.allow_shared(library_, kernel.handle, launch.shared_bytes), "a block cannot have its shared memory");
+    check(vendor_.allow_shared(library_, kernel.handle, launch.shared_bytes), [&] {
+      return std::string("a block of '") + kernel.name + "' cannot have its " + std::to_string(launch.shared_bytes) +
+             " bytes of shared memory";
+    });
   }
 }
 
@@ -302,7 +323,7 @@ void VendorDriver::launch(Kernel kernel, const Launch &launch, const void *job, 
   check(calls_.launch(kernel.handle, static_cast<unsigned>(launch.num_blocks), 1, 1,
                       static_cast<unsigned>(launch.num_threads), 1, 1, static_cast<unsigned>(launch.shared_bytes),
                       stream_, arguments, nullptr),
-        "a kernel cannot be launched");
+        [&] { return std::string("'") + kernel.name + "' cannot be launched"; });
 }
 
 void VendorDriver::launch_user(void *kernel, void *context, CeedInt Q, const UserFields &fields) {
@@ -341,11 +362,15 @@ class VendorGraph : public Calls {
       const Call &now = calls[i], &then = calls_made_[i];
       if (now.job == then.job && now.launch == then.launch) continue;
       with_node(now, [&](const GraphNode &node) {
-        driver_.check(calls_.change(executable_, nodes_[i], &node), "a graph's kernel cannot be changed");
+        driver_.check(calls_.change(executable_, nodes_[i], &node),
+                      [&] { return std::string("'") + now.kernel.name + "' cannot be changed in its graph"; });
       });
       calls_made_[i] = now;
     }
-    driver_.check(calls_.launch(executable_, driver_.stream_), "a graph cannot be launched");
+    driver_.check(calls_.launch(executable_, driver_.stream_), [&] {
+      return "the graph of " + std::to_string(calls.size()) + " kernels, the first of which is '" +
+             calls[0].kernel.name + "', cannot be launched";
+    });
   }
   std::size_t num_bytes() const override {
     std::size_t bytes = sizeof *this;

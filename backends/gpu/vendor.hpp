@@ -133,10 +133,11 @@ struct Vendor {
 class VendorCompiler {
  public:
   explicit VendorCompiler(const Vendor &vendor);
-  /// The code of a text, from the cache on disk where it is there. `log`: what the compiler said, empty where it was
-  /// not asked; may be NULL. Throws DeviceError, with its messages.
+  /// The code of a text, from the cache on disk where it is there and `is_usable`; where there is no cache, that is
+  /// told once. `log`: what the compiler said, empty where it was not asked; may be NULL. Throws DeviceError, with its
+  /// messages.
   std::string compile(const std::string &name, const std::string &text, const std::vector<std::string> &options,
-                      std::string *log = nullptr) const;
+                      std::string *log = nullptr, bool is_usable = true) const;
   /// The same without the cache.
   std::string compile_now(const std::string &name, const std::string &text, const std::vector<std::string> &options,
                           std::string *log = nullptr) const;

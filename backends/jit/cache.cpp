@@ -16,6 +16,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "tell.hpp"
+
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
@@ -203,7 +205,7 @@ void *Cache::library(const Compiler &compiler, const Request &request, std::stri
 }
 
 // A file is the code and its digest, so that one that was cut short is seen.
-std::string Cache::code(const std::string &request, const std::function<std::string()> &make) const {
+std::string Cache::code(const std::string &request, const std::function<std::string()> &make, bool is_usable) const {
   const std::string name = digest(request);
   const fs::path file = folder_ / (name + ".bin");
   const std::size_t digest_size = name.size();
@@ -214,6 +216,7 @@ std::string Cache::code(const std::string &request, const std::function<std::str
     text.resize(text.size() - digest_size);
     return digest(text) == own ? text : std::string();
   };
+  if (!is_usable) ::unlink(file.c_str());
   if (std::string code = stored(); !code.empty()) {
     ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0);  // was used now
     return code;
@@ -222,8 +225,12 @@ std::string Cache::code(const std::string &request, const std::function<std::str
   if (std::string code = stored(); !code.empty()) return code;
   std::string code = make();
   ::unlink(file.c_str());
-  keep(file.filename(), code + digest(code));
-  trim();
+  try {
+    keep(file.filename(), code + digest(code));
+    trim();
+  } catch (const NotCompiled &reason) {
+    tell_once("not kept", std::string("what is compiled for devices is not kept: ") + reason.what());
+  }
   return code;
 }
 

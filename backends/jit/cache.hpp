@@ -34,9 +34,9 @@ class Cache {
   /// wanted, when it was compiled; untouched where it is open already. Throws NotCompiled, with the compiler's
   /// messages.
   void *library(const Compiler &compiler, const Request &request, std::string *said) const;
-  /// What make() returns for a request, from the disk where it is there. Throws what make() throws, and NotCompiled
-  /// where it cannot be written.
-  std::string code(const std::string &request, const std::function<std::string()> &make) const;
+  /// What make() returns for a request, from the disk where it is there and `is_usable`; what cannot be written there
+  /// is told once. Throws what make() throws.
+  std::string code(const std::string &request, const std::function<std::string()> &make, bool is_usable = true) const;
   /// Makes sure that a file of this name is there, with this text.
   void keep(const std::filesystem::path &name, const std::string &text) const;
 

@@ -1,6 +1,7 @@
 /// Application.
 #include <algorithm>
 
+#include "assembly.hpp"
 #include "operator.hpp"
 
 namespace {
@@ -146,17 +147,31 @@ void apply(CeedOperator op, CeedVector in, CeedVector out, bool is_added, Passiv
   });
 }
 
+void prepare(CeedOperator op, CeedOperatorUse use) {
+  hg::check_ready(hg::deref(op, "CeedOperator"));
+  require(use >= CEED_USE_APPLY && use <= CEED_USE_ASSEMBLE_POINT_BLOCKS, CEED_ERROR_INCOMPATIBLE, [&] {
+    return text("CeedOperator '%s' is prepared for %d; expected a CeedOperatorUse, 0 to %d", op->shown_name(),
+                static_cast<int>(use), static_cast<int>(CEED_USE_ASSEMBLE_POINT_BLOCKS));
+  });
+  hg::for_each_single(*op, [&](CeedOperator_private &single) {
+    const CeedProgram &program = hg::program_of(single);
+    const bool is_assembled = use != CEED_USE_APPLY;
+    if (is_assembled) hg::require_linearisable(single, program);
+    const auto prepare = single.ceed->ops.op.prepare;
+    if (prepare == nullptr || program.num_elem == 0) return;
+    const bool is_kept = is_assembled && single.reuses_assembly;
+    hg::check(prepare(&single, &program, is_kept ? CEED_USE_ASSEMBLE_QFUNCTION : use));
+  });
+}
+
 }  // namespace
 
+int CeedOperatorPrepareFor(CeedOperator op, CeedOperatorUse use) {
+  return hg::guard(hg::ceed_of(op), [&] { prepare(op, use); });
+}
+
 int CeedOperatorPrepare(CeedOperator op) {
-  return hg::guard(hg::ceed_of(op), [&] {
-    hg::check_ready(hg::deref(op, "CeedOperator"));
-    hg::for_each_single(*op, [&](CeedOperator_private &single) {
-      const CeedProgram &program = hg::program_of(single);
-      const auto prepare = single.ceed->ops.op.prepare;
-      if (prepare != nullptr && program.num_elem > 0) hg::check(prepare(&single, &program));
-    });
-  });
+  return hg::guard(hg::ceed_of(op), [&] { prepare(op, CEED_USE_APPLY); });
 }
 
 int CeedOperatorApply(CeedOperator op, CeedVector in, CeedVector out, CeedRequest *) {

@@ -1,5 +1,7 @@
 #include "solve/jacobian_mat.hpp"
 
+#include <ceed/backend.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -80,6 +82,7 @@ JacobianMat::JacobianMat(const Mesh &mesh, Type type) : mesh_(mesh), type_(type)
 void JacobianMat::set_operator(CeedOperator op, const InactiveRows &inactive) {
   op_ = op;
   inactive_ = &inactive;
+  ceed_check(CeedOperatorPrepareFor(op, type_ == Type::aij ? CEED_USE_ASSEMBLE : CEED_USE_APPLY));
   if (type_ == Type::aij) pattern();
 }
 

@@ -1,5 +1,7 @@
 #include "solve/static_solver.hpp"
 
+#include <ceed/backend.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -112,6 +114,7 @@ void StaticSolver::operators_changed(const std::vector<char> &active_cells) {
     if (row >= first && row < end && active[i / 3] == 0) inactive.push_back(row - first);
   }
   inactive_.set(inactive, residual_);
+  ceed_check(CeedOperatorPrepare(operators_.residual()));  // so that what solves take is not what compiling takes
   jacobian_->set_operator(operators_.jacobian(), inactive_);
 }
 

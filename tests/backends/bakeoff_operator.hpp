@@ -7,10 +7,12 @@
 #include <numeric>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "support/errors.hpp"
 #include "support/handles.hpp"
+#include "support/random.hpp"
 
 namespace hg::test {
 
@@ -18,7 +20,11 @@ namespace hg::test {
 /// and its output have restrictions of their own, which are equal. Nothing is compiled here.
 class BakeoffOperator {
  public:
-  BakeoffOperator(Ceed ceed, bool is_poisson, CeedInt num_comp, CeedInt P, CeedInt Q, CeedInt per_cell) {
+  /// On the host the QFunction fails.
+  static int never(void *, CeedInt, const CeedScalar *const *, CeedScalar *const *) { return 1; }
+
+  BakeoffOperator(Ceed ceed, bool is_poisson, CeedInt num_comp, CeedInt P, CeedInt Q, CeedInt per_cell,
+                  CeedQFunctionUser on_host = never) {
     const CeedInt nodes = P * P * P, points = per_cell > 0 ? per_cell : Q * Q * Q, stored = is_poisson ? 6 : 1;
     std::vector<CeedInt> places(num_elem * nodes), ids(num_elem + 1 + num_elem * points);
     for (std::size_t i = 0; i < places.size(); i++) places[i] = static_cast<CeedInt>(i) * num_comp;
@@ -49,10 +55,9 @@ class BakeoffOperator {
     }
     const std::string name = std::string(is_poisson ? "BPPoissonApply" : "BPMassApply") + (num_comp > 1 ? "3" : "");
     const std::string place = std::string(HG_QFUNCTIONS) + (is_poisson ? "/bps/poisson.h:" : "/bps/mass.h:") + name;
-    const CeedQFunctionUser never = [](void *, CeedInt, const CeedScalar *const *, CeedScalar *const *) { return 1; };
     const CeedEvalMode mode = is_poisson ? CEED_EVAL_GRAD : CEED_EVAL_INTERP;
     const CeedInt size = num_comp * (is_poisson ? 3 : 1);
-    ok(CeedQFunctionCreateInterior(ceed, 1, never, place.c_str(), qf_.out()));
+    ok(CeedQFunctionCreateInterior(ceed, 1, on_host, place.c_str(), qf_.out()));
     ok(CeedQFunctionAddInput(qf_, "u", size, mode));
     ok(CeedQFunctionAddInput(qf_, "data", stored, CEED_EVAL_NONE));
     ok(CeedQFunctionAddOutput(qf_, "v", size, mode));
@@ -64,6 +69,14 @@ class BakeoffOperator {
     if (per_cell > 0) ok(CeedOperatorAtPointsSetPoints(op_, coordinates_, x_));
   }
   operator CeedOperator() const { return op_; }
+  /// What is stored at the points, and where they are, in [-1, 1]³, becomes random.
+  void shuffle(Random &random) {
+    for (const auto &[vec, is_used] : {std::pair(&data_, true), std::pair(&x_, coordinates_.get() != nullptr)}) {
+      CeedSize length = 0;
+      ok(CeedVectorGetLength(*vec, &length));
+      if (is_used) ok(CeedVectorSetArray(*vec, CEED_MEM_HOST, CEED_COPY_VALUES, random.reals(length).data()));
+    }
+  }
 
  private:
   static constexpr CeedInt num_elem = 2;

@@ -110,6 +110,15 @@ TEST_P(EmulatorTest, FindsWhatIsOutsideOfSharedMemory) {
   expect_names(error_of("HG_SHARED(s); s[thread() - 1] = 1;"), "is outside of shared memory: word -1 of 8");
 }
 
+/// Devices refuse it.
+TEST_P(EmulatorTest, FindsAPairAtAnOddPlace) {
+  const std::string message = "takes for a pair what begins at an odd word: word 3 of 8";
+  expect_names(error_of("HG_SHARED(s); if (thread() == 1) write_pair(s + 1, 2, {1, 2});"), message);
+  expect_names(error_of("HG_SHARED(s); if (thread() == 1) write_pair(s, 2, {1, 2}); barrier();"
+                        "if (thread() == 1) job.y[index()] = read_pair(s, 3).first;"),
+               message);
+}
+
 TEST_P(EmulatorTest, FindsARace) {
   expect_names(error_of("HG_SHARED(s); s[thread() / 2] = thread(); barrier(); job.y[index()] = s[0];"),
                "writes what another thread has written since the last barrier");
@@ -303,6 +312,8 @@ INSTANTIATE_TEST_SUITE_P(Orders, WarpTest, orders, name_of);
 TEST(EmulatorOptions, AreRead) {
   EXPECT_EQ(emu::Emulator(emu::parse("warp=64")).properties().warp_size, 64);
   EXPECT_EQ(emu::Emulator(emu::parse("")).properties().warp_size, 32);
+  EXPECT_EQ(emu::Emulator(emu::parse("shared=227")).properties().shared_per_block, 227U << 10);
+  EXPECT_EQ(emu::Emulator(emu::parse("")).properties().shared_per_block, 64U << 10);
   try {
     emu::parse("order=sideways");
     FAIL() << "it was taken";

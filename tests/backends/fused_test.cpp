@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <tuple>
@@ -210,6 +211,53 @@ TEST(Layouts, AreKeptWhilePointsMove) {
   }
 }
 
+/// Another layout is taken where that is better by far, and what is compiled once is found again.
+TEST(Layouts, AreFoundAgain) {
+  const EmptyCache cache;
+  const CeedHandle ceed{open("/gpu/emu/gen")};
+  std::vector<std::size_t> compiled;
+  for (const CeedInt per_cell : {27, 1, 27, 1}) {
+    const BakeoffOperator op(ceed, true, 3, 3, 4, per_cell);
+    ok(CeedOperatorPrepare(op));
+    compiled.push_back(cache.num_files());
+  }
+  EXPECT_GT(compiled[1], compiled[0]);
+  EXPECT_EQ(compiled[2], compiled[1]);
+  EXPECT_EQ(compiled[3], compiled[1]);
+}
+
+/// What vectors do, they do where they are.
+TEST(Vectors, StayOnTheDevice) {
+  const CeedHandle ceed{open("/gpu/emu/gen")};
+  constexpr CeedSize length = 1000;
+  Vector x, y, z;
+  for (Vector *vec : {&x, &y, &z}) ok(CeedVectorCreate(ceed, length, vec->out()));
+  CeedTransfers before, after;
+  ok(CeedGetTransfers(ceed, &before));
+  ok(CeedVectorSetValue(x, 2));
+  ok(CeedVectorSetValue(y, 3));
+  ok(CeedVectorCopy(x, z));
+  ok(CeedVectorScale(z, 2));             // 4
+  ok(CeedVectorAXPY(z, 2, y));           // 10
+  ok(CeedVectorAXPBY(z, 1, 0.5, x));     // 7
+  ok(CeedVectorPointwiseMult(z, x, y));  // 6
+  ok(CeedVectorReciprocal(z));           // 1/6
+  ok(CeedVectorSetValueStrided(z, 0, length, 2, 5));
+  ok(CeedVectorCopyStrided(y, 1, length, 2, z));  // every second one: 3
+  ok(CeedGetTransfers(ceed, &after));
+  EXPECT_EQ(after.num_to_host, before.num_to_host);
+  EXPECT_EQ(after.bytes_to_device, before.bytes_to_device);
+  for (const auto &[type, want] :
+       {std::pair(CEED_NORM_1, 4000.), std::pair(CEED_NORM_2, std::sqrt(17000.)), std::pair(CEED_NORM_MAX, 5.)}) {
+    CeedScalar norm = 0;
+    ok(CeedGetTransfers(ceed, &before));
+    ok(CeedVectorNorm(z, type, &norm));
+    ok(CeedGetTransfers(ceed, &after));
+    EXPECT_NEAR(norm, want, 1e-12 * want);
+    EXPECT_LT(after.bytes_to_host - before.bytes_to_host, length * static_cast<CeedSize>(sizeof(CeedScalar)));
+  }
+}
+
 /// A QFunction of u and v in one operator, on 12 values in three elements.
 class Stored {
  public:
@@ -250,6 +298,22 @@ TEST_P(FailingFunction, IsAnError) {
     const char *message = nullptr;
     ok(CeedGetErrorMessage(ceed, &message));
     EXPECT_NE(std::string(message).find("'refuse' returned 7"), std::string::npos) << message;
+  }
+}
+
+/// A QFunction that says where its text is, and it is not there.
+TEST(MissingText, IsAnErrorThatNamesTheQFunction) {
+  for (const char *resource : {"/gpu/emu/ref", "/gpu/emu/gen"}) {
+    const CeedHandle ceed{open(resource)};
+    Stored op(ceed, refuse, "/nowhere/refuse.h:refuse");
+    ok(CeedSetErrorHandler(ceed, CeedErrorStore));
+    EXPECT_EQ(op.apply(Values(12, 0.5)), CEED_ERROR_BACKEND);
+    const char *message = nullptr;
+    ok(CeedGetErrorMessage(ceed, &message));
+    EXPECT_NE(std::string(message).find(
+                  "the QFunction 'refuse' is not compiled: its source '/nowhere/refuse.h' is not there"),
+              std::string::npos)
+        << message;
   }
 }
 
@@ -304,6 +368,73 @@ TEST_P(PreparedTest, HasAllOfItsFirstApplication) {
   EXPECT_EQ(after.num_to_host, before.num_to_host);
 }
 
+/// A backend that compiles for assemblies, and points in a cell.
+class PreparedAssemblyTest : public PreparedTest {
+ protected:
+  void assemble(CeedOperatorUse use) const {
+    CeedSize length = 0, num_entries = 0;
+    ok(CeedOperatorGetActiveVectorLengths(op, &length, nullptr));
+    ok(CeedOperatorLinearAssembleGetNumEntries(op, &num_entries));
+    Vector values, diagonal, blocks;
+    Restriction rstr;
+    switch (use) {
+      case CEED_USE_APPLY:
+        FAIL() << "that is no assembly";
+      case CEED_USE_ASSEMBLE_QFUNCTION:
+        return ok(CeedOperatorLinearAssembleQFunction(op, values.out(), rstr.out(), CEED_REQUEST_IMMEDIATE));
+      case CEED_USE_ASSEMBLE:
+        ok(CeedVectorCreate(ceed, num_entries, values.out()));
+        return ok(CeedOperatorLinearAssemble(op, values));
+      case CEED_USE_ASSEMBLE_DIAGONAL:
+        ok(CeedVectorCreate(ceed, length, values.out()));
+        return ok(CeedOperatorLinearAssembleDiagonal(op, values, CEED_REQUEST_IMMEDIATE));
+      case CEED_USE_ASSEMBLE_POINT_BLOCKS:
+        ok(CeedVectorCreate(ceed, 3 * length, values.out()));
+        return ok(CeedOperatorLinearAssemblePointBlockDiagonal(op, values, CEED_REQUEST_IMMEDIATE));
+    }
+  }
+};
+
+/// Nor do those of assemblies, each of which is prepared by itself.
+TEST_P(PreparedAssemblyTest, HasAllOfItsFirstAssembly) {
+  for (const CeedOperatorUse use :
+       {CEED_USE_ASSEMBLE_QFUNCTION, CEED_USE_ASSEMBLE, CEED_USE_ASSEMBLE_DIAGONAL, CEED_USE_ASSEMBLE_POINT_BLOCKS}) {
+    SCOPED_TRACE(use);
+    const EmptyCache cache;
+    ok(CeedOperatorPrepareFor(op, use));
+    const std::size_t prepared = cache.num_files();
+    CeedTransfers before, after;
+    ok(CeedGetTransfers(ceed, &before));
+    assemble(use);
+    ok(CeedGetTransfers(ceed, &after));
+    EXPECT_EQ(cache.num_files(), prepared);
+    EXPECT_EQ(after.bytes_to_device, before.bytes_to_device);
+    EXPECT_EQ(after.num_to_host, before.num_to_host);
+  }
+}
+
+/// What is assembled from an assembled QFunction that is kept needs that one alone.
+TEST(KeptAssembly, IsWhatIsPrepared) {
+  const CeedHandle ceed{open("/gpu/emu/gen")};
+  const auto num_compiled = [&](CeedOperatorUse use, bool is_kept) {
+    const BakeoffOperator op(ceed, true, 3, 3, 4, 0);
+    const EmptyCache cache;
+    ok(CeedOperatorSetQFunctionAssemblyReuse(op, is_kept));
+    ok(CeedOperatorPrepareFor(op, CEED_USE_ASSEMBLE_QFUNCTION));
+    const std::size_t of_qfunction = cache.num_files();
+    ok(CeedOperatorPrepareFor(op, use));
+    return cache.num_files() - of_qfunction;
+  };
+  EXPECT_EQ(num_compiled(CEED_USE_ASSEMBLE, true), 0U);
+  EXPECT_GT(num_compiled(CEED_USE_ASSEMBLE, false), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, PreparedAssemblyTest,
+                         testing::Combine(testing::Values("/gpu/emu/gen", "/cpu/self/gen"), testing::Values(0, 27)),
+                         [](const auto &info) {
+                           const std::string where = std::get<0>(info.param).substr(1, 3);
+                           return where + (std::get<1>(info.param) > 0 ? "Own" : "Quadrature");
+                         });
 INSTANTIATE_TEST_SUITE_P(Backends, PreparedTest,
                          testing::Combine(testing::Values("/gpu/emu/ref", "/gpu/emu/gen"), testing::Values(0, 27)),
                          [](const auto &info) {

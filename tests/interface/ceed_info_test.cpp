@@ -42,6 +42,11 @@ TEST(CeedInfo, ListsWhatIsThere) {
   EXPECT_HAS(listed.out, "also asked for as /test/alias of delegate");
   EXPECT_HAS(listed.out, "its own: op.apply_add; the rest from /cpu/self/ref/serial");
   EXPECT_LT(listed.out.find("/cpu/self/ref/serial"), listed.out.find("/test/delegate")) << "the preferred one is first";
+#ifdef HG_HAS_DEVICES
+  for (const char *name : {"/gpu/cuda/gen", "/gpu/cuda/ref", "/gpu/hip/gen", "/gpu/hip/ref"}) {
+    EXPECT_HAS(listed.out, "\n" + std::string(name) + "\n");  // whether there is a device or none
+  }
+#endif
   // Only devices may be missing.
   const std::string missing = "\n  not available  ";
   for (auto at = listed.out.find(missing); at != std::string::npos; at = listed.out.find(missing, at + 1)) {

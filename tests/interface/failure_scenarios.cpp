@@ -310,6 +310,7 @@ void use_operator(Ceed ceed) {
 void assemble(Ceed ceed, CeedOperator op, CeedScalar sum) {
   Vector assembled, diagonal, blocks, values;
   Restriction rstr;
+  must(CeedOperatorPrepareFor(op, CEED_USE_ASSEMBLE));
   must(CeedOperatorLinearAssembleQFunction(op, assembled.out(), rstr.out(), CEED_REQUEST_IMMEDIATE));
   must(CeedVectorCreate(ceed, 5, diagonal.out()));
   must(CeedOperatorLinearAssembleDiagonal(op, diagonal, CEED_REQUEST_IMMEDIATE));

@@ -120,6 +120,22 @@ TEST_F(Misuse, ActiveObjectsAreHandedOutTogether) {
   EXPECT_EQ(in_rstr, nullptr);
 }
 
+TEST_F(Misuse, OperatorsArePreparedForWhatTheyCanDo) {
+  const QFunction qf = make_qfunction(CEED_EVAL_NONE);
+  Operator op;
+  ok(CeedOperatorCreate(ceed, qf, CEED_QFUNCTION_NONE, CEED_QFUNCTION_NONE, op.out()));
+  ok(CeedOperatorSetName(op, "copy"));
+  Restriction rstr;
+  ok(CeedElemRestrictionCreateStrided(ceed, 1, 2, 1, 2, CEED_STRIDES_BACKEND, rstr.out()));
+  const Vector u = make_vector(ceed, 2, 1);
+  ok(CeedOperatorSetField(op, "u", rstr, CEED_BASIS_NONE, u));
+  ok(CeedOperatorSetField(op, "v", rstr, CEED_BASIS_NONE, CEED_VECTOR_ACTIVE));
+  expect_error(CeedOperatorPrepareFor(op, static_cast<CeedOperatorUse>(5)), CEED_ERROR_INCOMPATIBLE,
+               {"'copy'", "5", "expected a CeedOperatorUse, 0 to 4"});
+  expect_error(CeedOperatorPrepareFor(op, CEED_USE_ASSEMBLE), CEED_ERROR_INCOMPATIBLE, {"'copy'", "no active input"});
+  ok(CeedOperatorPrepareFor(op, CEED_USE_APPLY));
+}
+
 TEST_F(Misuse, ACopyDoesNotReplaceWhatIsLentOut) {
   const Vector first = make_vector(ceed, 2, 1);
   Vector second = make_vector(ceed, 2, 2);

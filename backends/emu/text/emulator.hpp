@@ -158,6 +158,11 @@ class Shared {
   Shared(Emulated *state, ptrdiff_t first) : state_(state), first_(first) {}
   SharedNumber operator[](ptrdiff_t i) const { return SharedNumber(state_, first_ + i); }
   Shared operator+(ptrdiff_t i) const { return Shared(state_, first_ + i); }
+  /// The first of two words that a device reads or writes at once.
+  SharedNumber pair(ptrdiff_t i) const {
+    if ((first_ + i) % 2 != 0) state_->fail(state_, "takes for a pair what begins at an odd word", first_ + i);
+    return (*this)[i];
+  }
 
  private:
   Emulated *state_;
@@ -168,10 +173,10 @@ struct Pair {
   double first, second;
 };
 inline Pair read_pair(SharedArray array, int place) {
-  return {array[place], array[place + 1]};
+  return {array.pair(place), array[place + 1]};
 }
 inline void write_pair(SharedArray array, int place, Pair pair) {
-  array[place] = pair.first;
+  array.pair(place) = pair.first;
   array[place + 1] = pair.second;
 }
 

@@ -416,11 +416,22 @@ CEED_EXTERN int CeedOperatorSetData(CeedOperator op, void *data);
 /// Counts one reference more.
 CEED_EXTERN int CeedOperatorReference(CeedOperator op);
 
-/// Compiles, and brings to a device, what the first application would compile and bring there; of a composite, for all
-/// its parts. Nothing is done twice, and an operator that is not prepared is so by its first application; assemblies
-/// are prepared by the first of their kind. Errors: those of CeedOperatorCheckReady(), which is called where it was not
-/// (CEED_ERROR_INCOMPLETE, CEED_ERROR_DIMENSION, CEED_ERROR_INCOMPATIBLE); where it cannot be compiled, those of the
+/// What an operator is used for.
+typedef enum {
+  CEED_USE_APPLY = 0,                  ///< CeedOperatorApply() and its like
+  CEED_USE_ASSEMBLE_QFUNCTION = 1,     ///< CeedOperatorLinearAssembleQFunction() and its like
+  CEED_USE_ASSEMBLE = 2,               ///< CeedOperatorLinearAssemble()
+  CEED_USE_ASSEMBLE_DIAGONAL = 3,      ///< CeedOperatorLinearAssembleDiagonal() and its like
+  CEED_USE_ASSEMBLE_POINT_BLOCKS = 4,  ///< CeedOperatorLinearAssemblePointBlockDiagonal() and its like
+} CeedOperatorUse;
+/// Compiles, and brings to a device, what the first use of this kind would compile and bring there, but for vectors
+/// that are passed to it; of a composite, for all its parts. Nothing is done twice, and an operator that is not
+/// prepared is so when it is first used. Errors: those of CeedOperatorCheckReady(), which is called where it was not
+/// (CEED_ERROR_INCOMPLETE, CEED_ERROR_DIMENSION, CEED_ERROR_INCOMPATIBLE); CEED_ERROR_INCOMPATIBLE for assemblies
+/// without an active input or output, and for a number that is no use; where it cannot be compiled, those of the
 /// backend.
+CEED_EXTERN int CeedOperatorPrepareFor(CeedOperator op, CeedOperatorUse use);
+/// The same for its application.
 CEED_EXTERN int CeedOperatorPrepare(CeedOperator op);
 
 /// Bytes that an operator works with, beside its active input and output. An array that several fields or parts share

@@ -14,7 +14,7 @@
 
 /// Version of this file: it grows with every change of a struct or of what an entry means. A plugin of another version
 /// is refused.
-#define CEED_PLUGIN_API_VERSION 5u
+#define CEED_PLUGIN_API_VERSION 6u
 
 #ifdef __cplusplus
 extern "C" {
@@ -196,8 +196,9 @@ typedef enum {
 typedef struct {
   int (*create)(CeedOperator op, const CeedProgram *program);  ///< optional; after lowering
   int (*destroy)(CeedOperator op);  ///< optional; of a composite, where apply_add_parts() was called for it
-  /// Optional: what takes time when apply_add() is first called.
-  int (*prepare)(CeedOperator op, const CeedProgram *program);
+  /// Optional: what takes time when the operator is first used so. Where an assembled QFunction is kept, the core asks
+  /// for that one instead of what is assembled from it.
+  int (*prepare)(CeedOperator op, const CeedProgram *program, CeedOperatorUse use);
   /// in, out: L-vectors, or CEED_VECTOR_NONE where the operator has no active input or output.
   int (*apply_add)(CeedOperator op, const CeedProgram *program, CeedVector in, CeedVector out, CeedApplyMode mode);
   /// Optional: apply_add() with CEED_APPLY_ADD_ALL of the num_parts single operators of a `composite` that is not

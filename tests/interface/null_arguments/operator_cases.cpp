@@ -35,6 +35,7 @@ std::vector<Case> operator_cases() {
       HG_CASE(CeedOperatorViewTerse, o.op, o.stream),
       HG_CASE(CeedOperatorGetMemory, o.op, &o.memory),
       HG_CASE(CeedOperatorPrepare, o.op),
+      HG_CASE(CeedOperatorPrepareFor, o.op, CEED_USE_ASSEMBLE_DIAGONAL),
       HG_CASE(CeedOperatorGetCeed, o.op, &o.made_ceed),
       HG_CASE(CeedOperatorReturnCeed, o.op),
       HG_CASE(CeedOperatorGetNumElements, o.op, &o.number),
