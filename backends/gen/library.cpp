@@ -92,7 +92,7 @@ std::string text_of(const host::Kernels &kernels, const Source &source, const Pr
   text += "#define HG_HOST_ISA compiled\n#define HG_HOST_WIDTH " + std::to_string(kernels.width) +
           "\n#define HG_HOST_FUSES\n#include <honeyguide/begin.hpp>\n#include <honeyguide/at_points.hpp>\n\n";
   text += defines.begin + "#include \"" + source.file.string() + "\"\n" + defines.end + '\n';
-  text += "// " + source.digest + " is the digest of all that it includes.\n";
+  text += "// " + jit::digest_of(source) + " is the digest of all that it includes.\n";
   if (!printed.does_all) {
     text +=
         "extern \"C\" __attribute__((visibility(\"default\"))) int hg_qfunction(void *context, CeedInt Q,\n"

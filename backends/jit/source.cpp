@@ -65,7 +65,7 @@ Source Source::of(CeedQFunction qf) {
   host::chk(CeedQFunctionGetKernelName(qf, &name));
   if (path == nullptr || *path == '\0') throw NoSource("it came without the place of its source");
   const Ceed ceed = CeedQFunctionReturnCeed(qf);
-  Source source{.file = path, .function = name, .roots = {}, .defines = {}, .digest = ""};
+  Source source{.file = path, .function = name, .roots = {}, .defines = {}};
   for (const auto &root : strings(ceed, CeedGetJitSourceRoots, CeedRestoreJitSourceRoots))
     source.roots.emplace_back(root);
   source.roots.push_back(installed_sources());
@@ -75,11 +75,14 @@ Source Source::of(CeedQFunction qf) {
   }
   if (!is_file(source.file)) throw NotCompiled("its source '" + std::string(path) + "' is not there");
   source.file = fs::absolute(source.file).lexically_normal();
+  return source;
+}
+
+std::string digest_of(const Source &source) {
   std::set<fs::path> seen;
   std::string all;
   read(source.file, source.roots, seen, all);
-  source.digest = jit::digest(all);
-  return source;
+  return digest(all);
 }
 
 std::string_view directive(std::string_view line) {

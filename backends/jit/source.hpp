@@ -17,11 +17,12 @@ struct Source {
   std::string function;
   std::vector<std::filesystem::path> roots;  ///< folders in which included files are looked for
   std::vector<std::string> defines;          ///< NAME or NAME=VALUE
-  std::string digest;                        ///< of the file and all that it includes by quotes
 
   /// Throws NoSource, or NotCompiled where the text is not there.
   static Source of(CeedQFunction qf);
 };
+/// Of the file and all that it includes from folders that are known, for compilers that find it themselves.
+std::string digest_of(const Source &source);
 
 /// What a line includes.
 struct Include {

@@ -32,8 +32,7 @@ class FlattenTest : public testing::Test {
     std::ofstream(folder / name) << text;
   }
   std::string flat() const {
-    return jit::flatten(
-        {.file = folder / "main.h", .function = "f", .roots = {folder / "root"}, .defines = {}, .digest = ""});
+    return jit::flatten({.file = folder / "main.h", .function = "f", .roots = {folder / "root"}, .defines = {}});
   }
   /// What a compiler makes of a file, without blanks.
   Finished preprocessed(const std::string &name) const {
