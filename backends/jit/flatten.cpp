@@ -27,7 +27,9 @@ bool begins(std::string_view words, std::string_view word) {
 }
 
 bool is_once(const std::string &line) {
-  return begins(directive(line), "pragma once");
+  const std::string_view words = directive(line), pragma = "pragma";
+  const auto word = words.find_first_not_of(" \t", pragma.size());
+  return begins(words, pragma) && word != std::string_view::npos && begins(words.substr(word), "once");
 }
 
 /// Whether all that a file has is for its first time: by its pragma, or as its first directives are a guard.

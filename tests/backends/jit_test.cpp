@@ -66,6 +66,8 @@ TEST_F(FlattenTest, LeavesConditionsToTheCompiler) {
   write("once.h", "#pragma once\nint once;\n");
   write("main.h", "#ifdef OFF\n#include \"once.h\"\n#endif\n#include \"once.h\"\n#include \"once.h\"\n");
   expect_same();
+  write("once.h", "  # pragma \t once // as it says\nint once;\n");
+  expect_same();
   write("twice.h", "#ifdef OFF\n#pragma once\n#endif\nint twice;\n");
   write("main.h", "#include \"twice.h\"\n#include \"twice.h\"\n");
   expect_same();

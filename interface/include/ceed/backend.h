@@ -431,7 +431,8 @@ typedef enum {
 /// without an active input or output, and for a number that is no use; where it cannot be compiled, those of the
 /// backend.
 CEED_EXTERN int CeedOperatorPrepareFor(CeedOperator op, CeedOperatorUse use);
-/// The same for its application.
+/// The same for its application. Errors: those of CeedOperatorCheckReady() (CEED_ERROR_INCOMPLETE, CEED_ERROR_DIMENSION,
+/// CEED_ERROR_INCOMPATIBLE), and of the backend.
 CEED_EXTERN int CeedOperatorPrepare(CeedOperator op);
 
 /// Bytes that an operator works with, beside its active input and output. An array that several fields or parts share
