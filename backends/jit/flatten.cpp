@@ -22,14 +22,10 @@ std::vector<std::string> lines_in(const fs::path &file) {
   return lines;
 }
 
-bool begins(std::string_view words, std::string_view word) {
-  return words.substr(0, word.size()) == word;
-}
-
 bool is_once(const std::string &line) {
   const std::string_view words = directive(line), pragma = "pragma";
   const auto word = words.find_first_not_of(" \t", pragma.size());
-  return begins(words, pragma) && word != std::string_view::npos && begins(words.substr(word), "once");
+  return words.starts_with(pragma) && word != std::string_view::npos && words.substr(word).starts_with("once");
 }
 
 /// Whether all that a file has is for its first time: by its pragma, or as its first directives are a guard.
@@ -39,8 +35,8 @@ bool is_guarded(const std::vector<std::string> &lines) {
   for (const auto &line : lines) {
     if (first.size() < 2 && !directive(line).empty()) first.push_back(directive(line));
   }
-  return first.size() == 2 && (begins(first[0], "ifndef") || begins(first[0], "if !defined")) &&
-         begins(first[1], "define");
+  return first.size() == 2 && (first[0].starts_with("ifndef") || first[0].starts_with("if !defined")) &&
+         first[1].starts_with("define");
 }
 
 class Flattener {
@@ -66,8 +62,8 @@ class Flattener {
     for (const std::string &line : lines) {
       number++;
       const std::string_view words = directive(line);
-      if (begins(words, "if")) depth++;
-      if (begins(words, "endif")) depth--;
+      if (words.starts_with("if")) depth++;
+      if (words.starts_with("endif")) depth--;
       if (is_once(line)) {
         if (is_reached && depth == 0) came_.insert(same);
         text_ += "#define " + guard + '\n';
